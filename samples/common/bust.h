@@ -1,0 +1,31 @@
+// An opaque head with neck and shoulders, ray-cast on the CPU: what hair hides behind and in front of.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "camera.h"
+#include "image.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace forelock::samples {
+
+struct BustLook {
+  glm::vec3 albedo{0.46f, 0.36f, 0.31f};  // linear
+  glm::vec3 to_light{0.45f, 0.65f, 0.62f};
+  glm::vec3 light{2.2f, 2.1f, 2.0f};      // radiance leaving a white surface that faces the light, times pi
+  glm::vec3 ambient{0.16f, 0.17f, 0.19f};
+};
+
+struct BustImage {
+  Image color;               // alpha 1 on the bust, 0 elsewhere
+  std::vector<float> depth;  // linear view depth (m) along the view axis, row 0 at the top; infinity off the bust
+};
+
+BustImage drawBust(const Camera& camera, uint32_t width, uint32_t height, const BustLook& look);
+
+// Box around the bust's head and shoulders (m), for framing together with hair.
+void bustBounds(float min_bounds[3], float max_bounds[3]);
+
+}  // namespace forelock::samples

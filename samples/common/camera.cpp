@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "camera.h"
+
+#include "recipe.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace forelock::samples {
+
+CameraBasis cameraBasis(const Camera& camera) {
+  CameraBasis basis;
+  basis.back = glm::normalize(camera.eye - camera.target);
+  glm::dvec3 right = glm::cross(camera.up, basis.back);
+  if (glm::dot(right, right) < 1e-12) {
+    right = glm::cross(std::fabs(basis.back.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1), basis.back);
+  }
+  basis.right = glm::normalize(right);
+  basis.up = glm::cross(basis.back, basis.right);
+  return basis;
+}
+
+void viewMatrix(const Camera& camera, double view[16]) {
+  const CameraBasis basis = cameraBasis(camera);
+  const glm::dvec3 rows[3] = {basis.right, basis.up, basis.back};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      view[4 * column + row] = rows[row][column];
+    }
+    view[12 + row] = -glm::dot(rows[row], camera.eye);
+    view[4 * row + 3] = 0.0;
+  }
+  view[15] = 1.0;
+}
+
+void projectionMatrix(const Camera& camera, double aspect, float projection[16]) {
+  std::fill(projection, projection + 16, 0.0f);
+  const double n = camera.near_m;
+  const double f = camera.far_m;
+  double depth_scale, depth_offset;  // clip z = scale * view z + offset
+  if (camera.orthographic) {
+    projection[0] = static_cast<float>(2.0 / (camera.view_height * aspect));
+    projection[5] = static_cast<float>(-2.0 / camera.view_height);
+    projection[15] = 1.0f;
+    depth_scale = camera.reversed_depth ? 1.0 / (f - n) : -1.0 / (f - n);
+    depth_offset = camera.reversed_depth ? f / (f - n) : -n / (f - n);
+  } else {
+    const double focal = 1.0 / std::tan(0.5 * camera.vertical_fov);
+    projection[0] = static_cast<float>(focal / aspect);
+    projection[5] = static_cast<float>(-focal);
+    projection[11] = -1.0f;
+    depth_scale = camera.reversed_depth ? n / (f - n) : -f / (f - n);
+    depth_offset = camera.reversed_depth ? n * f / (f - n) : -n * f / (f - n);
+  }
+  projection[10] = static_cast<float>(depth_scale);
+  projection[14] = static_cast<float>(depth_offset);
+}
+
+Camera frameBounds(const float min_bounds[3], const float max_bounds[3], double azimuth, double elevation, UpAxis up_axis,
+                   double vertical_fov, double aspect, double margin) {
+  const glm::dvec3 low(min_bounds[0], min_bounds[1], min_bounds[2]);
+  const glm::dvec3 high(max_bounds[0], max_bounds[1], max_bounds[2]);
+  const double flat = std::cos(elevation);
+  glm::dvec3 from(flat * std::sin(azimuth), std::sin(elevation), flat * std::cos(azimuth));
+  Camera camera;
+  if (up_axis == UpAxis::Z) {
+    from = glm::dvec3(from.x, -from.z, from.y);
+    camera.up = glm::dvec3(0.0, 0.0, 1.0);
+  }
+  if (flat < 1e-6) {  // from straight above or below the front points up in the image
+    camera.up = (up_axis == UpAxis::Z ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1)) * (elevation > 0.0 ? 1.0 : -1.0);
+  }
+  camera.vertical_fov = vertical_fov;
+  camera.target = (low + high) * 0.5;
+  camera.eye = camera.target + from;
+
+  const CameraBasis basis = cameraBasis(camera);
+  const double tan_y = std::tan(0.5 * vertical_fov) / margin;
+  const double tan_x = tan_y * aspect;
+  double distance = 0.0;
+  double reach = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 p((corner & 1) ? high.x : low.x, (corner & 2) ? high.y : low.y, (corner & 4) ? high.z : low.z);
+    const glm::dvec3 d = p - camera.target;
+    const double forward = glm::dot(d, basis.back);
+    distance = std::max(distance, forward + std::fabs(glm::dot(d, basis.right)) / tan_x);
+    distance = std::max(distance, forward + std::fabs(glm::dot(d, basis.up)) / tan_y);
+    reach = std::max(reach, std::fabs(forward));
+  }
+  // A single straight strand seen end on has no extent in the picture: keep some distance to it.
+  const double size = glm::length(high - low);
+  distance = std::max(distance, reach + std::max(0.05 * size, 1e-4));
+  camera.eye = camera.target + from * distance;
+  camera.near_m = std::max(distance - 1.2 * reach - 0.05 * size, 0.01 * distance);
+  camera.far_m = distance + 1.2 * reach + 0.05 * size + 1e-4;
+  return camera;
+}
+
+Camera fromRecipeCamera(const RecipeCamera& stored) {
+  Camera camera;
+  camera.eye = stored.eye;
+  camera.target = stored.target;
+  camera.up = stored.up;
+  camera.vertical_fov = stored.vertical_fov_deg * (3.14159265358979323846 / 180.0);
+  camera.near_m = stored.near_m;
+  camera.far_m = stored.far_m;
+  return camera;
+}
+
+}  // namespace forelock::samples

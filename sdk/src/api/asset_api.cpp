@@ -1,0 +1,161 @@
+#include "forelock/asset.h"
+
+#include "api/boundary.h"
+#include "asset/codec.h"
+#include "asset/file_io.h"
+#include "asset/loaded_asset.h"
+#include "asset/sniff.h"
+
+#include <algorithm>
+#include <cinttypes>
+
+using namespace forelock;
+
+namespace {
+
+FlkResult invalid(const Report& report, const char* what) {
+  return report.fail(FLK_ERROR_INVALID_ARGUMENT, "INVALID_ARGUMENT", "%s", what);
+}
+
+uint32_t limitOr(uint32_t asked, uint32_t largest) { return asked == 0 ? largest : std::min(asked, largest); }
+
+// Checks the options of a call, says what is wrong with them, and runs `body(settings, asset)`.
+template <class Body>
+FlkResult makeWith(const FlkAssetOptions* options, const char* default_name, FlkAsset* asset, Body&& body) noexcept {
+  if (asset) *asset = nullptr;
+  const FlkAssetOptions none{FLK_TYPE_ASSET_OPTIONS, nullptr, nullptr, nullptr, nullptr, nullptr, 0, 0};
+  if (!options) options = &none;
+  // Of a struct that is not what it should be nothing is used, its callback least of all.
+  if (options->type != FLK_TYPE_ASSET_OPTIONS) return FLK_ERROR_INVALID_ARGUMENT;
+
+  const char* name = options->name ? options->name : default_name ? default_name : "asset";
+  AssetSettings settings{HostMemory(nullptr), Messages(options->message, options->message_user), name,
+                         {limitOr(options->max_strands, limit_strands), limitOr(options->max_vertices, limit_vertices)}};
+  const Report report(settings.messages, settings.name);
+  if (options->next) return invalid(report, "FlkAssetOptions.next is reserved and has to be NULL");
+  if (!HostMemory::valid(options->allocator))
+    return invalid(report, "FlkHostAllocator has one function of two: give allocate and free, or neither");
+  if (!asset) return invalid(report, "the place for the new asset is NULL");
+  settings.memory = HostMemory(options->allocator);
+
+  AssetPointer made;
+  const FlkResult result = guarded([&] { return body(settings, report, made); });
+  if (result == FLK_ERROR_OUT_OF_HOST_MEMORY)
+    return report.fail(result, "OUT_OF_HOST_MEMORY", "the host's allocator refused memory: nothing was loaded");
+  if (result == FLK_SUCCESS) *asset = made.release();
+  return result;
+}
+
+FlkResult acceptHead(std::span<const std::byte> head, const Report& report) {
+  uint32_t format = FLK_FORMAT_UNKNOWN;
+  return sniffFormat(head, report, format);
+}
+
+// The codec for a save and the bytes that it needs.
+FlkResult prepareSave(const FlkAsset_T& asset, uint32_t format, const Report& report, const Codec*& codec, uint64_t& bytes) {
+  codec = findCodec(format);
+  if (!codec)
+    return report.fail(FLK_ERROR_INVALID_ARGUMENT, "WRITE_FORMAT_UNKNOWN",
+                       "format %" PRIu32 " cannot be written: choose FLK_FORMAT_TFX or FLK_FORMAT_HAIR", format);
+  const FlkResult result = codec->measure(asset.view(), asset.info, report, bytes);
+  if (result == FLK_SUCCESS && bytes > SIZE_MAX)
+    return report.fail(FLK_ERROR_LIMIT, "WRITE_TOO_LARGE", "its %" PRIu64 " bytes do not fit into memory", bytes);
+  return result;
+}
+
+}  // namespace
+
+extern "C" {
+
+FlkResult flkAssetCreate(const FlkStrands* strands, const FlkAssetOptions* options, FlkAsset* asset) {
+  return makeWith(options, nullptr, asset, [&](const AssetSettings& settings, const Report& report, AssetPointer& made) {
+    if (!strands) return invalid(report, "strands is NULL");
+    if (strands->type != FLK_TYPE_STRANDS) return invalid(report, "FlkStrands.type is not FLK_TYPE_STRANDS");
+    if (strands->next) return invalid(report, "FlkStrands.next is reserved and has to be NULL");
+    if (strands->strand_count == 0) return invalid(report, "FlkStrands.strand_count is 0: give at least one strand");
+    if (strands->vertex_count < 2) return invalid(report, "FlkStrands.vertex_count is below 2: a strand has two or more");
+    if (!strands->first_vertex) return invalid(report, "FlkStrands.first_vertex is NULL");
+    if (!strands->positions) return invalid(report, "FlkStrands.positions is NULL");
+    return makeAsset(*strands, settings, made);
+  });
+}
+
+FlkResult flkAssetLoadMemory(const void* bytes, size_t size, const FlkAssetOptions* options, FlkAsset* asset) {
+  return makeWith(options, nullptr, asset, [&](const AssetSettings& settings, const Report& report, AssetPointer& made) {
+    if (!bytes && size != 0) return invalid(report, "bytes is NULL, but size is not 0");
+    return readAsset(std::span(static_cast<const std::byte*>(bytes), size), settings, made);
+  });
+}
+
+FlkResult flkAssetLoadFile(const char* path, const FlkAssetOptions* options, FlkAsset* asset) {
+  return makeWith(options, path, asset, [&](const AssetSettings& settings, const Report& report, AssetPointer& made) {
+    if (!path) return invalid(report, "path is NULL");
+    HostMemory memory = settings.memory;
+    std::pmr::vector<std::byte> bytes(&memory);
+    const FlkResult result = readFile(path, report, acceptHead, bytes);
+    return result == FLK_SUCCESS ? readAsset(bytes, settings, made) : result;
+  });
+}
+
+FlkResult flkAssetSaveMemory(FlkAsset asset, uint32_t format, void* bytes, size_t* size) {
+  if (!asset) return FLK_ERROR_INVALID_ARGUMENT;
+  const Report report = asset->report();
+  if (!size) return invalid(report, "size is NULL");
+  const Codec* codec = nullptr;
+  uint64_t needed = 0;
+  const FlkResult result = prepareSave(*asset, format, report, codec, needed);
+  if (result != FLK_SUCCESS) return result;
+  if (bytes && *size < needed)
+    return report.fail(FLK_ERROR_INVALID_ARGUMENT, "WRITE_CAPACITY_TOO_SMALL",
+                       "writing it needs %" PRIu64 " bytes, but there is room for %zu: ask for the size first", needed, *size);
+  *size = static_cast<size_t>(needed);
+  if (!bytes) return FLK_SUCCESS;
+  ByteSink sink(std::span(static_cast<std::byte*>(bytes), *size));
+  codec->write(asset->view(), asset->info, report, sink);
+  return FLK_SUCCESS;
+}
+
+FlkResult flkAssetSaveFile(FlkAsset asset, uint32_t format, const char* path) {
+  if (!asset) return FLK_ERROR_INVALID_ARGUMENT;
+  const Report report = asset->report();
+  if (!path) return invalid(report, "path is NULL");
+  const Codec* codec = nullptr;
+  uint64_t needed = 0;
+  FlkResult result = prepareSave(*asset, format, report, codec, needed);
+  if (result != FLK_SUCCESS) return result;
+  result = guarded([&] {
+    // Its own resource: an asset may be saved by several threads at once.
+    HostMemory memory = asset->memory;
+    std::pmr::vector<std::byte> bytes(static_cast<size_t>(needed), &memory);
+    ByteSink sink{bytes};
+    codec->write(asset->view(), asset->info, report, sink);
+    return writeFile(path, bytes, report, &memory);
+  });
+  if (result == FLK_ERROR_OUT_OF_HOST_MEMORY)
+    return report.fail(result, "OUT_OF_HOST_MEMORY", "the host's allocator refused memory: nothing was written");
+  return result;
+}
+
+FlkResult flkAssetGetInfo(FlkAsset asset, FlkAssetInfo* info) {
+  if (!asset || !info) return FLK_ERROR_INVALID_ARGUMENT;
+  *info = asset->info;
+  return FLK_SUCCESS;
+}
+
+FlkResult flkAssetGetStrands(FlkAsset asset, FlkStrands* strands) {
+  if (!asset || !strands) return FLK_ERROR_INVALID_ARGUMENT;
+  *strands = asset->view();
+  return FLK_SUCCESS;
+}
+
+FlkResult flkAssetGetFinding(FlkAsset asset, uint32_t index, FlkFinding* finding) {
+  if (!asset || !finding || index >= asset->findings.size()) return FLK_ERROR_INVALID_ARGUMENT;
+  *finding = asset->findings.get(index);
+  return FLK_SUCCESS;
+}
+
+void flkAssetDestroy(FlkAsset asset) {
+  if (asset) AssetDeleter{}(asset);
+}
+
+}  // extern "C"

@@ -1,0 +1,32 @@
+// What a file format has to offer; one line a format in codec.cpp.
+#pragma once
+
+#include "asset/cursor.h"
+#include "asset/strand_arrays.h"
+
+#include <span>
+
+namespace forelock {
+
+struct Codec {
+  uint32_t format;
+
+  // Fills arrays and places, having proven every count against the bytes before it allocates; notes what is odd about the
+  // file. A refusal is told to `report`. Throws std::bad_alloc.
+  FlkResult (*read)(std::span<const std::byte> bytes, const Limits& limits, const Report& report, StrandArrays& arrays,
+                    Places& places, Findings& findings);
+
+  // Length in bytes of an asset in this format. FLK_ERROR_LIMIT, told to `report`, if the format cannot hold it.
+  FlkResult (*measure)(const FlkStrands& strands, const FlkAssetInfo& info, const Report& report, uint64_t& bytes);
+
+  // Fills a span of that length and tells what was left out.
+  void (*write)(const FlkStrands& strands, const FlkAssetInfo& info, const Report& report, ByteSink& sink);
+};
+
+extern const Codec tfx_codec;
+extern const Codec hair_codec;
+
+// nullptr: no such format.
+const Codec* findCodec(uint32_t format) noexcept;
+
+}  // namespace forelock

@@ -1,0 +1,132 @@
+#include "asset/findings.h"
+
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <iterator>
+
+namespace forelock {
+namespace {
+
+struct Meaning {
+  const char* code;
+  uint32_t severity;
+  uint32_t repaired;
+  const char* what;
+  const char* advice;
+};
+
+constexpr uint32_t info = FLK_SEVERITY_INFO;
+constexpr uint32_t warning = FLK_SEVERITY_WARNING;
+
+constexpr Meaning meanings[] = {
+    {"STRAND_TOO_SHORT", warning, 1, "strands with fewer than two vertices were dropped",
+     "remove them where the file was made"},
+    {"POSITION_NOT_FINITE", warning, 1, "strands with a NaN or infinite coordinate were dropped",
+     "export them again, the values are lost"},
+    {"POSITION_OUT_OF_RANGE", warning, 1, "strands with a coordinate beyond 1e6 were dropped",
+     "check the unit and the scale of the export"},
+    {"STRAND_ZERO_LENGTH", warning, 1, "strands of zero length were dropped", "remove them where the file was made"},
+    {"RADIUS_INVALID", warning, 1, "widths that are negative, NaN, infinite or beyond 1e6 were replaced by the default",
+     "correct the width attribute and export again"},
+    {"RADIUS_ALL_ZERO", warning, 0, "every width is zero, so nothing would be visible",
+     "set a width on the hair or export without the width attribute"},
+    {"ROOT_UV_NOT_FINITE", warning, 1, "root UVs that are NaN or infinite were replaced by 0",
+     "project the roots onto the scalp again"},
+    {"INVERSE_MASS_INVALID", warning, 1, "inverse masses that are negative, NaN or infinite were replaced by 0 (pinned)",
+     "export with 0 for pinned and 1 for free vertices"},
+    {"HAIR_POINTS_UNUSED", warning, 0, "points at the end belong to no strand and were left out",
+     "check the segment counts of the exporter"},
+    {"HAIR_FLAGS_RESERVED", warning, 0, "bits of the flag field that have no meaning are set and were ignored",
+     "if arrays are missing, export without attributes of your own"},
+    {"TFX_OFFSET_UNALIGNED", warning, 0, "blocks do not start at a multiple of 4 bytes",
+     "check the first strand: the offset may be damaged"},
+    {"TRAILING_BYTES", warning, 0, "bytes follow the last block of the file and were ignored",
+     "check that the header counts what the exporter wrote"},
+    {"UNIT_SUSPECT", warning, 0, "the size of the coordinates suggests another unit than metres", "scale the asset"},
+    {"SEGMENT_ZERO_LENGTH", info, 0, "segments have zero length (equal consecutive vertices); they are kept",
+     "resample if a solver needs a length for every segment"},
+    {"STRAND_MICRO", info, 0, "strands are shorter than 1/10,000 of the median length; they are kept",
+     "remove them if they are stray roots"},
+    {"ROOT_UV_OUTSIDE_UNIT", info, 0, "root UVs lie outside 0..1", "expected for UDIM or wrapped textures only"},
+    {"TFX_RESERVED_SET", info, 0, "reserved header words are not zero and were ignored", "nothing, if the hair looks right"},
+    {"TFX_VERTEX_UV_IGNORED", info, 0, "the file has UVs per vertex, which are not used", "root UVs are taken per strand"},
+    {"TFX_VERTEX_COLOR_IGNORED", info, 0, "the file has colours per vertex, which are not used",
+     "colour comes from the material"},
+    {"HAIR_TRANSPARENCY_IGNORED", info, 0, "the file has transparency per point, which is not used",
+     "opacity comes from the material"},
+    {"HAIR_COLOR_IGNORED", info, 0, "the file has colours per point, which are not used", "colour comes from the material"},
+    {"WIDTH_DEFAULTED", info, 0, "no widths in the source, a default is used", "give radii or set a width on the hair"},
+};
+static_assert(std::size(meanings) == static_cast<std::size_t>(FindingKind::kinds));
+
+}  // namespace
+
+void Findings::note(FindingKind kind, uint32_t strand, uint64_t byte, uint64_t times) noexcept {
+  Slot& slot = slots_[static_cast<std::size_t>(kind)];
+  if (slot.count == 0) slot.byte = byte;
+  slot.count += times;
+  if (strand == no_strand || slot.strands_listed == std::size(slot.strands)) return;
+  if (slot.strands_listed != 0 && slot.strands[slot.strands_listed - 1] == strand) return;
+  slot.strands[slot.strands_listed++] = strand;
+}
+
+void Findings::describe(FindingKind kind, const char* format, ...) noexcept {
+  Slot& slot = slots_[static_cast<std::size_t>(kind)];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(slot.described, sizeof slot.described, format, arguments);
+  va_end(arguments);
+}
+
+void Findings::finish() {
+  for (std::size_t kind = 0; kind < slots_.size(); ++kind) {
+    const Slot& slot = slots_[kind];
+    if (slot.count == 0) continue;
+    const Meaning& meaning = meanings[kind];
+
+    char where[96] = "";
+    if (slot.strands_listed != 0 && slot.byte != no_byte)
+      std::snprintf(where, sizeof where, ", the first in strand %" PRIu32 " at byte %" PRIu64, slot.strands[0], slot.byte);
+    else if (slot.strands_listed != 0)
+      std::snprintf(where, sizeof where, ", the first in strand %" PRIu32, slot.strands[0]);
+    else if (slot.byte != no_byte)
+      std::snprintf(where, sizeof where, ", from byte %" PRIu64, slot.byte);
+
+    char text[640];
+    if (slot.described[0])
+      std::snprintf(text, sizeof text, "%s", slot.described);
+    else
+      std::snprintf(text, sizeof text, "%s (%" PRIu64 "%s); %s", meaning.what, slot.count, where, meaning.advice);
+
+    FlkFinding finding{};
+    finding.code = meaning.code;
+    finding.severity = meaning.severity;
+    finding.repaired = meaning.repaired;
+    finding.count = slot.count;
+    std::memcpy(finding.strands, slot.strands, sizeof finding.strands);
+    finding.strands_listed = slot.strands_listed;
+    finding.byte_offset = slot.byte;
+    list_.push_back({finding, std::pmr::string(text, list_.get_allocator().resource())});
+  }
+}
+
+void Findings::tell(const Report& report) const noexcept {
+  for (const Entry& entry : list_)
+    if (entry.finding.severity >= FLK_SEVERITY_WARNING)
+      report.say(entry.finding.severity, entry.finding.code, "%s", entry.text.c_str());
+}
+
+FlkFinding Findings::get(uint32_t index) const noexcept {
+  FlkFinding finding = list_[index].finding;
+  finding.text = list_[index].text.c_str();
+  return finding;
+}
+
+uint64_t Findings::bytes() const noexcept {
+  uint64_t bytes = list_.capacity() * sizeof(Entry);
+  for (const Entry& entry : list_) bytes += entry.text.capacity() + 1;
+  return bytes;
+}
+
+}  // namespace forelock

@@ -1,0 +1,83 @@
+// What is worth knowing about an asset, collected while it is read. Collecting needs no memory, so a file with a defect
+// in every vertex costs no more than one with a single defect; sentences are made once, at the end.
+#pragma once
+
+#include "asset/report.h"
+#include "forelock/asset.h"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <string>
+#include <vector>
+
+namespace forelock {
+
+inline constexpr uint64_t no_byte = UINT64_MAX;
+inline constexpr uint32_t no_strand = UINT32_MAX;
+
+// In the order in which they are listed; codes and sentences are in findings.cpp and docs/findings.md.
+enum class FindingKind : uint32_t {
+  strand_too_short,
+  position_not_finite,
+  position_out_of_range,
+  strand_zero_length,
+  radius_invalid,
+  radius_all_zero,
+  root_uv_not_finite,
+  inverse_mass_invalid,
+  hair_points_unused,
+  hair_flags_reserved,
+  tfx_offset_unaligned,
+  trailing_bytes,
+  unit_suspect,
+  segment_zero_length,
+  strand_micro,
+  root_uv_outside_unit,
+  tfx_reserved_set,
+  tfx_vertex_uv_ignored,
+  tfx_vertex_color_ignored,
+  hair_transparency_ignored,
+  hair_color_ignored,
+  width_defaulted,
+  kinds
+};
+
+class Findings {
+public:
+  explicit Findings(std::pmr::memory_resource* memory) : list_(memory) {}
+
+  // `strand` is numbered as in the source; no_strand where the finding is about the file. Keeps the first byte told.
+  void note(FindingKind kind, uint32_t strand, uint64_t byte, uint64_t times = 1) noexcept;
+
+  // A sentence of its own for this kind in place of the table's, for what only the reader knows.
+  void describe(FindingKind kind, const char* format, ...) noexcept __attribute__((format(printf, 3, 4)));
+
+  uint64_t count(FindingKind kind) const noexcept { return slots_[static_cast<std::size_t>(kind)].count; }
+
+  // Makes the list and tells the host of warnings. Once, when nothing else can fail. Throws std::bad_alloc.
+  void finish();
+  void tell(const Report& report) const noexcept;
+
+  uint32_t size() const noexcept { return static_cast<uint32_t>(list_.size()); }
+  FlkFinding get(uint32_t index) const noexcept;
+  uint64_t bytes() const noexcept;
+
+private:
+  struct Slot {
+    uint64_t count = 0;
+    uint64_t byte = no_byte;
+    uint32_t strands[8] = {};
+    uint32_t strands_listed = 0;
+    char described[320] = {};
+  };
+  struct Entry {
+    FlkFinding finding;  // without its text, which may move while the list is made
+    std::pmr::string text;
+  };
+
+  std::array<Slot, static_cast<std::size_t>(FindingKind::kinds)> slots_;
+  std::pmr::vector<Entry> list_;
+};
+
+}  // namespace forelock

@@ -1,0 +1,28 @@
+// What a call tells a person: the name the caller gave the asset, and where sentences go.
+#pragma once
+
+#include "host/memory.h"
+
+#include <string_view>
+
+namespace forelock {
+
+class Report {
+public:
+  // `name` may be longer than a message: its end is kept, which holds the file's own name.
+  Report(const Messages& messages, std::string_view name) noexcept;
+
+  // Says "NAME: sentence" with severity error and hands `result` back, so that a refusal is one return statement.
+  FlkResult fail(FlkResult result, const char* id, const char* format, ...) const noexcept
+      __attribute__((format(printf, 4, 5)));
+  void say(uint32_t severity, const char* id, const char* format, ...) const noexcept
+      __attribute__((format(printf, 4, 5)));
+
+  const char* name() const noexcept { return name_; }
+
+private:
+  Messages messages_;
+  char name_[256];
+};
+
+}  // namespace forelock

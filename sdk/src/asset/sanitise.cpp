@@ -1,0 +1,229 @@
+#include "asset/sanitise.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace forelock {
+namespace {
+
+constexpr float dropped = -1.0f;  // in place of a strand's length
+constexpr double micro_fraction = 1e-4;
+
+// Length of a strand, or `dropped` after noting why.
+float measureStrand(const StrandArrays& arrays, uint32_t strand, const Places& places, Findings& findings) {
+  const uint32_t begin = arrays.first_vertex[strand], end = arrays.first_vertex[strand + 1];
+  const auto drop = [&](FindingKind kind, uint32_t vertex) {
+    findings.note(kind, strand, places.positions.byte(strand, vertex));
+    return dropped;
+  };
+  if (end - begin < 2) return drop(FindingKind::strand_too_short, begin);
+
+  for (uint32_t vertex = begin; vertex < end; ++vertex)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float value = arrays.positions[std::size_t{vertex} * 3 + axis];
+      if (std::fabs(value) <= largest_coordinate) continue;
+      return drop(std::isfinite(value) ? FindingKind::position_out_of_range : FindingKind::position_not_finite, vertex);
+    }
+
+  double length = 0, longest = 0;
+  uint64_t vanishing = 0;
+  uint32_t first_vanishing = 0;
+  for (uint32_t vertex = begin; vertex + 1 < end; ++vertex) {
+    const float* a = arrays.positions.data() + std::size_t{vertex} * 3;
+    const double x = double{a[3]} - a[0], y = double{a[4]} - a[1], z = double{a[5]} - a[2];
+    const double segment = std::sqrt(x * x + y * y + z * z);
+    if (segment <= vanishing_length && vanishing++ == 0) first_vanishing = vertex;
+    longest = std::max(longest, segment);
+    length += segment;
+  }
+  if (longest <= vanishing_length) return drop(FindingKind::strand_zero_length, begin);
+  if (vanishing != 0)
+    findings.note(FindingKind::segment_zero_length, strand, places.positions.byte(strand, first_vanishing), vanishing);
+  return static_cast<float>(length);
+}
+
+void noteMicroStrands(const StrandArrays& arrays, const std::pmr::vector<float>& lengths, const Places& places,
+                      Findings& findings) {
+  std::pmr::vector<float> kept(lengths.get_allocator());
+  kept.reserve(lengths.size());
+  std::copy_if(lengths.begin(), lengths.end(), std::back_inserter(kept), [](float length) { return length != dropped; });
+  const auto middle = kept.begin() + static_cast<std::ptrdiff_t>(kept.size() / 2);
+  std::nth_element(kept.begin(), middle, kept.end());
+  const double shortest = *middle * micro_fraction;
+  for (uint32_t strand = 0; strand < lengths.size(); ++strand)
+    if (lengths[strand] != dropped && lengths[strand] < shortest)
+      findings.note(FindingKind::strand_micro, strand, places.positions.byte(strand, arrays.first_vertex[strand]));
+}
+
+// Replaces what no radius, UV or mass may be. Only in strands that stay: findings about dropped ones would mislead.
+void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, float default_radius,
+                  const Places& places, Findings& findings) {
+  for (uint32_t strand = 0; strand < lengths.size(); ++strand) {
+    if (lengths[strand] == dropped) continue;
+    const uint32_t begin = arrays.first_vertex[strand], end = arrays.first_vertex[strand + 1];
+    if (!arrays.radii.empty())
+      for (uint32_t vertex = begin; vertex < end; ++vertex) {
+        float& radius = arrays.radii[vertex];
+        if (radius >= 0 && radius <= largest_coordinate) continue;
+        radius = default_radius;
+        findings.note(FindingKind::radius_invalid, strand, places.radii.byte(strand, vertex));
+      }
+    if (!arrays.inverse_masses.empty())
+      for (uint32_t vertex = begin; vertex < end; ++vertex) {
+        float& mass = arrays.inverse_masses[vertex];
+        if (mass >= 0 && std::isfinite(mass)) continue;
+        mass = 0;
+        findings.note(FindingKind::inverse_mass_invalid, strand, places.inverse_masses.byte(strand, vertex));
+      }
+    if (!arrays.root_uvs.empty()) {
+      float* uv = arrays.root_uvs.data() + std::size_t{strand} * 2;
+      const uint64_t byte = places.root_uvs.byte(strand, begin);
+      if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) {
+        findings.note(FindingKind::root_uv_not_finite, strand, byte);
+        for (int i = 0; i < 2; ++i)
+          if (!std::isfinite(uv[i])) uv[i] = 0;
+      }
+      if (uv[0] < 0 || uv[0] > 1 || uv[1] < 0 || uv[1] > 1)
+        findings.note(FindingKind::root_uv_outside_unit, strand, byte);
+    }
+  }
+}
+
+// Closes the gaps of dropped strands. Everything moves towards the front, so it can be done in place.
+void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths) {
+  uint32_t strands = 0, vertices = 0;
+  const auto move = [](std::pmr::vector<float>& array, std::size_t from, std::size_t to, std::size_t count) {
+    if (array.empty() || from == to) return;
+    const auto source = array.begin() + static_cast<std::ptrdiff_t>(from);
+    std::copy(source, source + static_cast<std::ptrdiff_t>(count), array.begin() + static_cast<std::ptrdiff_t>(to));
+  };
+  for (uint32_t strand = 0; strand < lengths.size(); ++strand) {
+    if (lengths[strand] == dropped) continue;
+    const uint32_t begin = arrays.first_vertex[strand], count = arrays.first_vertex[strand + 1] - begin;
+    move(arrays.positions, std::size_t{begin} * 3, std::size_t{vertices} * 3, std::size_t{count} * 3);
+    move(arrays.radii, begin, vertices, count);
+    move(arrays.inverse_masses, begin, vertices, count);
+    move(arrays.root_uvs, std::size_t{strand} * 2, std::size_t{strands} * 2, 2);
+    // Never ahead of what is still to be read: `strands` is at most `strand`, whose own entry has just been used.
+    arrays.first_vertex[strands++] = vertices;
+    vertices += count;
+  }
+  arrays.first_vertex[strands] = vertices;
+  arrays.first_vertex.resize(std::size_t{strands} + 1);
+  arrays.positions.resize(std::size_t{vertices} * 3);
+  if (!arrays.radii.empty()) arrays.radii.resize(vertices);
+  if (!arrays.inverse_masses.empty()) arrays.inverse_masses.resize(vertices);
+  if (!arrays.root_uvs.empty()) arrays.root_uvs.resize(std::size_t{strands} * 2);
+}
+
+void measure(const StrandArrays& arrays, const std::pmr::vector<float>& lengths, FlkAssetInfo& info) {
+  info.strand_count = arrays.strandCount();
+  info.vertex_count = arrays.vertexCount();
+  info.min_vertices_per_strand = UINT32_MAX;
+  info.max_vertices_per_strand = 0;
+  for (uint32_t strand = 0; strand < info.strand_count; ++strand) {
+    const uint32_t count = arrays.first_vertex[strand + 1] - arrays.first_vertex[strand];
+    info.min_vertices_per_strand = std::min(info.min_vertices_per_strand, count);
+    info.max_vertices_per_strand = std::max(info.max_vertices_per_strand, count);
+  }
+
+  float low[3] = {largest_coordinate, largest_coordinate, largest_coordinate};
+  float high[3] = {-largest_coordinate, -largest_coordinate, -largest_coordinate};
+  for (std::size_t i = 0; i < arrays.positions.size(); i += 3)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], arrays.positions[i + axis]);
+      high[axis] = std::max(high[axis], arrays.positions[i + axis]);
+    }
+  std::copy(low, low + 3, info.min_bounds);
+  std::copy(high, high + 3, info.max_bounds);
+
+  const auto [thin, thick] = std::minmax_element(arrays.radii.begin(), arrays.radii.end());
+  info.min_radius = *thin;
+  info.max_radius = *thick;
+
+  double sum = 0;
+  info.min_length = std::numeric_limits<float>::max();
+  info.max_length = 0;
+  for (const float length : lengths) {
+    if (length == dropped) continue;
+    sum += length;
+    info.min_length = std::min(info.min_length, length);
+    info.max_length = std::max(info.max_length, length);
+  }
+  info.mean_length = static_cast<float>(sum / info.strand_count);
+}
+
+void guessUnit(const FlkAssetInfo& info, Findings& findings) {
+  float reach = 0, size = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    reach = std::max({reach, std::fabs(info.min_bounds[axis]), std::fabs(info.max_bounds[axis])});
+    size = std::max(size, info.max_bounds[axis] - info.min_bounds[axis]);
+  }
+  if (reach > 10) {
+    const bool millimetres = reach > 1000;
+    findings.note(FindingKind::unit_suspect, no_strand, no_byte);
+    findings.describe(FindingKind::unit_suspect,
+                      "coordinates reach %g, which suggests %s rather than metres; nothing was scaled: if so, scale by %s "
+                      "(default widths are in metres)",
+                      double{reach}, millimetres ? "millimetres" : "centimetres", millimetres ? "0.001" : "0.01");
+  } else if (size < 1e-3f) {
+    findings.note(FindingKind::unit_suspect, no_strand, no_byte);
+    findings.describe(FindingKind::unit_suspect,
+                      "the whole asset is only %g across, which is less than a millimetre if the unit is the metre; nothing "
+                      "was scaled: check the scale of the export",
+                      double{size});
+  }
+}
+
+}  // namespace
+
+float defaultRadius(uint32_t strands) noexcept {
+  return static_cast<float>(0.5 * 80e-6 * std::max(1.0, 100'000.0 / std::max(strands, 1u)));
+}
+
+FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_resource* memory, Findings& findings,
+                   const Report& report, FlkAssetInfo& info) {
+  const uint32_t source_strands = arrays.strandCount();
+  info.strands_in_source = source_strands;
+
+  std::pmr::vector<float> lengths(source_strands, memory);
+  uint32_t kept = 0;
+  for (uint32_t strand = 0; strand < source_strands; ++strand) {
+    lengths[strand] = measureStrand(arrays, strand, places, findings);
+    kept += lengths[strand] != dropped;
+  }
+  if (kept == 0)
+    return report.fail(FLK_ERROR_EMPTY_ASSET, "NO_STRAND_LEFT",
+                       "none of its %" PRIu32 " strands can be drawn: %" PRIu64 " have fewer than two vertices, %" PRIu64
+                       " hold NaN or infinite coordinates, %" PRIu64 " coordinates beyond 1e6, and %" PRIu64
+                       " have no length; export it again",
+                       source_strands, findings.count(FindingKind::strand_too_short),
+                       findings.count(FindingKind::position_not_finite),
+                       findings.count(FindingKind::position_out_of_range), findings.count(FindingKind::strand_zero_length));
+
+  const float default_radius = defaultRadius(kept);
+  noteMicroStrands(arrays, lengths, places, findings);
+  repairValues(arrays, lengths, default_radius, places, findings);
+  if (kept != source_strands) removeDropped(arrays, lengths);
+
+  info.has_radii = !arrays.radii.empty();
+  info.has_root_uvs = !arrays.root_uvs.empty();
+  info.has_inverse_masses = !arrays.inverse_masses.empty();
+  if (!info.has_radii) {
+    arrays.radii.assign(arrays.vertexCount(), default_radius);
+    findings.note(FindingKind::width_defaulted, no_strand, no_byte);
+    findings.describe(FindingKind::width_defaulted,
+                      "no widths in the source: a diameter of %.4g um is used (80 um x 100,000 / %" PRIu32
+                      " strands, at least 80 um, if the unit is the metre); give radii or set a width on the hair to change it",
+                      double{default_radius} * 2e6, kept);
+  }
+  measure(arrays, lengths, info);
+  if (info.max_radius == 0) findings.note(FindingKind::radius_all_zero, no_strand, places.radii.offset, info.vertex_count);
+  guessUnit(info, findings);
+  return FLK_SUCCESS;
+}
+
+}  // namespace forelock

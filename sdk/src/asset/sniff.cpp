@@ -1,0 +1,153 @@
+#include "asset/sniff.h"
+
+#include "asset/cursor.h"
+#include "forelock/asset.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace forelock {
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Signature {
+  std::string_view start;
+  FlkResult result;
+  const char* id;
+  const char* text;
+};
+
+constexpr FlkResult unknown = FLK_ERROR_FORMAT_UNKNOWN;
+constexpr FlkResult malformed = FLK_ERROR_MALFORMED;
+
+// Longer starts before the shorter ones that they begin with.
+constexpr Signature binary_signatures[] = {
+    {"\x00\x00\x40\x40"sv, unknown, "TFX_VERSION_3",
+     "a TressFX 3 binary (version 3.0 at byte 0); only version 4 is read: export again with a TressFX 4 exporter"},
+    {"\x40\x80\x00\x00"sv, malformed, "TFX_BYTE_SWAPPED",
+     "a TressFX 4 file in big-endian byte order (version at byte 0 is 4.0 backwards): write it in little-endian order"},
+    {"\x40\x40\x00\x00"sv, unknown, "TFX_VERSION_3",
+     "a TressFX 3 binary in big-endian byte order (byte 0); only version 4, little-endian, is read: export it again"},
+    {"RIAH"sv, malformed, "HAIR_BYTE_SWAPPED",
+     "a .hair file in swapped byte order (the magic at byte 0 reads RIAH): write it in little-endian order"},
+    {"glTF"sv, unknown, "GLTF_BINARY",
+     "a binary glTF file, which is not read here: convert its strands to .tfx or .hair first"},
+    {"Ogawa"sv, unknown, "ALEMBIC_FILE",
+     "an Alembic file (Ogawa), which is not read: export the curves as .tfx or .hair from the program that made it"},
+    {"\x89HDF\r\n\x1a\n"sv, unknown, "ALEMBIC_FILE",
+     "an HDF5 file, most likely an old Alembic: export the curves as .tfx or .hair from the program that made it"},
+    {"PXR-USDC"sv, unknown, "USD_FILE",
+     "a binary USD layer, which is not read: export the curves as .tfx or .hair from the program that made it"},
+    {"#usda"sv, unknown, "USD_FILE",
+     "a USD text layer, which is not read: export the curves as .tfx or .hair from the program that made it"},
+    {"Kaydara FBX Binary"sv, unknown, "FBX_FILE",
+     "an FBX file, which is not read: export the curves as .tfx or .hair from the program that made it"},
+    {"BLENDER"sv, unknown, "BLEND_FILE", "a Blender scene, which is not read: export its hair as .tfx or .hair from Blender"},
+    {"PK\x03\x04"sv, unknown, "ARCHIVE_FILE", "a ZIP archive (or USDZ): unpack it and load the strand file inside"},
+    {"\x1f\x8b"sv, unknown, "ARCHIVE_FILE", "compressed with gzip: unpack it first"},
+};
+
+// Compared without case, after a byte order mark and white space.
+constexpr Signature text_signatures[] = {
+    {"version https://git-lfs"sv, unknown, "GIT_LFS_POINTER",
+     "a Git LFS pointer, not the file itself: run 'git lfs pull' where it was cloned, or download the file"},
+    {"version "sv, unknown, "TFX_TEXT",
+     "a TressFX 1 or 2 text file; only the binary TressFX 4 form is read: export again with a TressFX 4 exporter"},
+    {"<!doctype"sv, unknown, "HTML_PAGE", "a web page, not the file itself: download it again, through its raw link"},
+    {"<html"sv, unknown, "HTML_PAGE", "a web page, not the file itself: download it again, through its raw link"},
+    {"<?xml"sv, unknown, "XML_FILE", "an XML document, not a strand file: check what was downloaded"},
+    {"<"sv, unknown, "HTML_PAGE", "a web page or XML document, not the file itself: download it again, through its raw link"},
+    {"#usda"sv, unknown, "USD_FILE",
+     "a USD text layer, which is not read: export the curves as .tfx or .hair from the program that made it"},
+    {"ply\n"sv, unknown, "PLY_FILE", "a PLY file, which is not read: convert its strands to .hair first"},
+    {"ply\r"sv, unknown, "PLY_FILE", "a PLY file, which is not read: convert its strands to .hair first"},
+};
+
+char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool startsWithoutCase(std::string_view text, std::string_view start) noexcept {
+  if (text.size() < start.size()) return false;
+  for (std::size_t i = 0; i < start.size(); ++i)
+    if (lower(text[i]) != start[i]) return false;
+  return true;
+}
+
+bool isText(std::string_view head) noexcept {
+  for (const char c : head)
+    if (static_cast<unsigned char>(c) < 9) return false;
+  return true;
+}
+
+// Lines that begin like those of Wavefront OBJ.
+bool looksLikeObj(std::string_view text) noexcept {
+  while (!text.empty()) {
+    for (const std::string_view keyword : {"v "sv, "mtllib "sv, "vt "sv, "vn "sv})
+      if (text.starts_with(keyword)) return true;
+    const bool skippable = text[0] == '#' || text[0] == '\n' || text[0] == '\r' || text.starts_with("o ") ||
+                           text.starts_with("g ") || text.starts_with("s ") || text.starts_with("usemtl ");
+    if (!skippable) return false;
+    const std::size_t end = text.find('\n');
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return false;
+}
+
+}  // namespace
+
+FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uint32_t& format) noexcept {
+  format = FLK_FORMAT_UNKNOWN;
+  if (head.empty()) return report.fail(unknown, "FILE_EMPTY", "it is empty (0 bytes): write or download it again");
+
+  const std::string_view all(reinterpret_cast<const char*>(head.data()), std::min(head.size(), sniffed_bytes));
+  if (all.starts_with("\x00\x00\x80\x40"sv)) return format = FLK_FORMAT_TFX, FLK_SUCCESS;
+  if (all.starts_with("HAIR")) return format = FLK_FORMAT_HAIR, FLK_SUCCESS;
+  for (const Signature& signature : binary_signatures)
+    if (all.starts_with(signature.start)) return report.fail(signature.result, signature.id, "it is %s", signature.text);
+
+  if (isText(all)) {
+    std::string_view text = all;
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    while (!text.empty() && (text[0] == ' ' || text[0] == '\t' || text[0] == '\r' || text[0] == '\n')) text.remove_prefix(1);
+    for (const Signature& signature : text_signatures)
+      if (startsWithoutCase(text, signature.start))
+        return report.fail(signature.result, signature.id, "it is %s", signature.text);
+    if (text.starts_with('{')) {
+      if (text.find("\"asset\"") != std::string_view::npos || text.find("\"accessors\"") != std::string_view::npos)
+        return report.fail(unknown, "GLTF_TEXT",
+                           "it is a glTF file, which is not read here: convert its strands to .tfx or .hair first");
+      return report.fail(unknown, "JSON_FILE", "it is a JSON document, not a strand file: check what was given");
+    }
+    if (looksLikeObj(text))
+      return report.fail(unknown, "OBJ_FILE", "it is a Wavefront OBJ text file, which is not read: convert its strands to "
+                                              ".hair first");
+  }
+
+  Cursor header(head);
+  if (header.holds(4, 4)) {
+    const float version = header.f32();
+    header.u32(), header.u32();
+    constexpr uint32_t usual_position_offset = 160;
+    if (header.u32() == usual_position_offset)
+      return report.fail(unknown, "TFX_VERSION_UNKNOWN",
+                         "it looks like a .tfx file, but its version (byte 0) is %g where 4 is read: the file is damaged or "
+                         "newer, export it again as TressFX 4",
+                         double{version});
+  }
+
+  char hex[4 * 3 + 1] = "";
+  constexpr char digits[] = "0123456789abcdef";
+  for (std::size_t i = 0; i < 4 && i < head.size(); ++i) {
+    const unsigned value = std::to_integer<unsigned>(head[i]);
+    hex[i * 3] = digits[value >> 4];
+    hex[i * 3 + 1] = digits[value & 15];
+    hex[i * 3 + 2] = ' ';
+    hex[i * 3 + 3] = '\0';
+  }
+  return report.fail(unknown, "FORMAT_UNKNOWN",
+                     "the bytes at its start (%sat byte 0) belong to no strand format that is read: give a TressFX 4 .tfx "
+                     "(00 00 80 40) or a .hair file (48 41 49 52)",
+                     hex);
+}
+
+}  // namespace forelock

@@ -1,0 +1,50 @@
+// Strands as a source gave them: what readers fill in and sanitise() puts in order.
+#pragma once
+
+#include "asset/findings.h"
+#include "forelock/asset.h"
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace forelock {
+
+inline constexpr uint32_t limit_strands = 4'194'304;
+inline constexpr uint32_t limit_vertices = 268'435'456;
+
+struct Limits {
+  uint32_t strands = limit_strands;
+  uint32_t vertices = limit_vertices;
+};
+
+struct StrandArrays {
+  explicit StrandArrays(std::pmr::memory_resource* memory)
+      : first_vertex(memory), positions(memory), radii(memory), root_uvs(memory), inverse_masses(memory) {}
+
+  uint32_t strandCount() const noexcept { return static_cast<uint32_t>(first_vertex.size() - 1); }
+  uint32_t vertexCount() const noexcept { return first_vertex.back(); }
+
+  std::pmr::vector<uint32_t> first_vertex;   // strands + 1, never falling
+  std::pmr::vector<float> positions;         // 3 a vertex
+  std::pmr::vector<float> radii;             // 1 a vertex; empty: none
+  std::pmr::vector<float> root_uvs;          // 2 a strand; empty: none
+  std::pmr::vector<float> inverse_masses;    // 1 a vertex; empty: none
+};
+
+// Where in the file the values of an array lie, so that a finding can say at which byte to look.
+struct Place {
+  uint64_t offset = no_byte;  // of the first record
+  uint32_t stride = 0;        // bytes from record to record
+  bool per_strand = false;    // a record a strand rather than a vertex
+
+  uint64_t byte(uint32_t strand, uint32_t vertex) const noexcept {
+    return offset == no_byte ? no_byte : offset + uint64_t{stride} * (per_strand ? strand : vertex);
+  }
+};
+
+struct Places {
+  Place positions, radii, root_uvs, inverse_masses;
+};
+
+}  // namespace forelock

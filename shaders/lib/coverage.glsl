@@ -1,0 +1,21 @@
+// Exact area of a pixel under a strip (docs/methods.md section 2).
+#ifndef FORELOCK_LIB_COVERAGE
+#define FORELOCK_LIB_COVERAGE
+
+// Half the extent of a unit pixel along a unit direction.
+float pixelHalfExtent(vec2 direction) { return 0.5 * (abs(direction.x) + abs(direction.y)); }
+
+// Area of the pixel on one side of a line at signed distance t, less one half; a >= b >= 0 are the absolute components of
+// the line's unit normal.
+float boxEdge(float t, float a, float b) {
+  float s = abs(t);
+  float flat_part = 0.5 * (a - b);
+  float reach = 0.5 * (a + b);
+  float r;
+  if (s <= flat_part) r = s / a;  // a >= 1/sqrt(2)
+  else if (s < reach) r = 0.5 - (reach - s) * (reach - s) / max(2.0 * a * b, 1e-30);  // b may be 0: then this branch is empty
+  else r = 0.5;
+  return t < 0.0 ? -r : r;
+}
+
+#endif

@@ -1,0 +1,56 @@
+// Kajiya-Kay diffuse and two shifted lobes (docs/methods.md section 5; Scheuermann 2004, Marschner et al. 2003).
+#ifndef FORELOCK_LIB_SHADING
+#define FORELOCK_LIB_SHADING
+#include "numeric.glsl"
+#include "../shared/frame.h"
+
+// max(0, cos(angle))^exponent, where cosine and sine are those of the angle. Near the mirror direction 1 - cosine is formed
+// from the sine, which keeps its digits.
+float lobe(float cosine, float sine, float exponent) {
+  if (!(cosine > 0.0)) return 0.0;
+  float q = min(sine * sine / (1.0 + cosine), 1.0);  // 1 - cosine
+  return powOneMinus(q, exponent);
+}
+
+struct StrandAngles {
+  float diffuse;  // sin(T, L)
+  vec2 r;         // cosine and sine of the angle between the R lobe and the eye
+  vec2 trt;
+};
+
+// T, L, V unit vectors, or T zero: then diffuse only (no direction to reflect about).
+StrandAngles strandAngles(vec3 T, vec3 L, vec3 V, vec2 turn_r, vec2 turn_trt) {
+  StrandAngles s;
+  if (dot(T, T) < 0.5) {
+    s.diffuse = 1.0;
+    s.r = vec2(-1.0, 0.0);
+    s.trt = vec2(-1.0, 0.0);
+    return s;
+  }
+  // Sines as lengths of cross products: sqrt(1 - cos^2) has no digits left for parallel vectors and may be NaN.
+  float cos_l = dot(T, L), sin_l = length(cross(T, L));
+  float cos_v = dot(T, V), sin_v = length(cross(T, V));
+  s.diffuse = min(sin_l, 1.0);
+  // Mirrored light: (-cos_l, sin_l). Turned by +2c (to the root), by -3c (to the tip).
+  vec2 r = vec2(-cos_l * turn_r.x - sin_l * turn_r.y, sin_l * turn_r.x - cos_l * turn_r.y);
+  vec2 t = vec2(-cos_l * turn_trt.x + sin_l * turn_trt.y, sin_l * turn_trt.x + cos_l * turn_trt.y);
+  s.r = vec2(r.x * cos_v + r.y * sin_v, r.y * cos_v - r.x * sin_v);
+  s.trt = vec2(t.x * cos_v + t.y * sin_v, t.y * cos_v - t.x * sin_v);
+  return s;
+}
+
+vec3 shadeFull(HairConstants hair, vec3 T, vec3 L, vec3 V, vec3 light, vec3 ambient) {
+  StrandAngles s = strandAngles(T, L, V, vec2(hair.cos_r, hair.sin_r), vec2(hair.cos_trt, hair.sin_trt));
+  vec3 diffuse = hair.diffuse * hair.color;
+  return light * (diffuse * s.diffuse + hair.specular_r * lobe(s.r.x, s.r.y, hair.exponent_r) +
+                  hair.specular_trt * hair.color * lobe(s.trt.x, s.trt.y, hair.exponent_trt)) +
+         ambient * diffuse;
+}
+
+vec3 shadeLow(HairConstants hair, vec3 T, vec3 L, vec3 light, vec3 ambient) {
+  float sine = dot(T, T) < 0.5 ? 1.0 : min(length(cross(T, L)), 1.0);
+  vec3 diffuse = hair.diffuse * hair.color;
+  return light * diffuse * sine + ambient * diffuse;
+}
+
+#endif

@@ -1,0 +1,46 @@
+// Depth-difference attenuation (docs/methods.md section 4).
+#ifndef FORELOCK_LIB_SHADOW
+#define FORELOCK_LIB_SHADOW
+#extension GL_EXT_samplerless_texture_functions : require
+
+// (1 - a)^fibres from log2(1 - a): 1 for no fibre in between, also where a = 1 (log2 sent as -FLT_MAX).
+float fibreTransmittance(float fibres, float log2_transmittance) {
+  float n = clamp(fibres, 0.0, 1e6);
+  if (!(n > 0.0)) return 1.0;  // also NaN
+  return exp2(max(n * log2_transmittance, -126.0)) * (n * log2_transmittance < -126.0 ? 0.0 : 1.0);
+}
+
+float shadowBias(vec3 T, vec3 L, float texel) {
+  return texel * abs(dot(T, L)) / max(length(cross(T, L)), 0.1);
+}
+
+// `position` in texels and metre, `range` the metres of a full depth value.
+float shadowTap(texture2D map, ivec2 texel, int size, float depth, float range, float fibres_per_metre, float log2_transmittance) {
+  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(size)))) return 1.0;
+  float front = texelFetch(map, texel, 0).r;
+  if (front >= 1.0) return 1.0;  // no hair towards the light
+  return fibreTransmittance((depth - front * range) * fibres_per_metre, log2_transmittance);
+}
+
+// A far position must not wrap when it becomes an integer.
+ivec2 shadowTexel(vec2 position, int size) {
+  return ivec2(floor(clamp(position, vec2(-8.0), vec2(float(size) + 8.0))));
+}
+
+float shadowFull(texture2D map, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance) {
+  // exp(-i^2 / 2), i = -2 .. 2, sum 1.
+  const float weights[5] = float[5](0.0544886845, 0.2442013422, 0.4026199469, 0.2442013422, 0.0544886845);
+  ivec2 texel = shadowTexel(position.xy, size);
+  float light = 0.0;
+  for (int j = -2; j <= 2; ++j)
+    for (int i = -2; i <= 2; ++i)
+      light += weights[i + 2] * weights[j + 2] *
+               shadowTap(map, texel + ivec2(i, j), size, position.z - bias, range, fibres_per_metre, log2_transmittance);
+  return light;
+}
+
+float shadowLow(texture2D map, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance) {
+  return shadowTap(map, shadowTexel(position.xy, size), size, position.z - bias, range, fibres_per_metre, log2_transmittance);
+}
+
+#endif

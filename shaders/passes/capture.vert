@@ -1,0 +1,95 @@
+// A strand segment to a quad of the screen: four vertices a segment, two triangles of an index buffer. docs/methods.md section 1.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define FLK_BIND_HAIR
+#include "bindings.glsl"
+#include "../lib/projection.glsl"
+#include "../lib/strand_quad.glsl"
+#include "../lib/strand_vertex.glsl"
+
+layout(location = 0) flat out vec4 out_axis;      // a.xy, t.xy (pixel)
+layout(location = 1) flat out vec4 out_extent;    // length, half widths, root ramp (pixel)
+layout(location = 2) flat out vec4 out_depth;     // tip ramp, depths, fraction at a
+layout(location = 3) flat out vec4 out_tangent_a; // fraction at b, tangent at a
+layout(location = 4) flat out vec4 out_tangent_b; // tangent at b, strand hash
+
+vec3 viewPosition(uint vertex) { return frame.hairs[hair_slot].view_from_hair * vec4(positions[vertex], 1.0); }
+
+vec2 toPixel(vec3 p) { return projectToPixel(p, frame.proj_scale, frame.proj_offset, frame.orthographic, frame.size); }
+
+float depthOf(vec3 p) { return -p.z; }
+
+// Half width at a point of view space, across direction t.
+float pixelHalfWidth(float radius, vec3 p, vec2 t) {
+  return halfWidth(radius, frame.pixels_per_unit / (frame.orthographic > 0.5 ? 1.0 : depthOf(p)), t);
+}
+
+// The neighbour's far end, moved to the near plane if it lies before it. The near end is visible.
+vec3 clippedToward(vec3 near_end, vec3 far_end) {
+  float d0 = depthOf(near_end), d1 = depthOf(far_end);
+  return d1 >= frame.near_plane ? far_end : mix(near_end, far_end, (d0 - frame.near_plane) / (d0 - d1));  // d1 < near <= d0
+}
+
+void main() {
+  uint word = segments[gl_VertexIndex >> 2];
+  float side = (gl_VertexIndex & 1) == 0 ? -1.0 : 1.0;
+  bool at_b = (gl_VertexIndex & 2) != 0;
+  uint ia = word & FLK_SEGMENT_VERTEX_MASK;
+  bool root = (word & FLK_SEGMENT_ROOT) != 0u, tip = (word & FLK_SEGMENT_TIP) != 0u;
+
+  vec3 a = viewPosition(ia), b = viewPosition(ia + 1);
+  vec3 before = root ? a : viewPosition(ia - 1), after = tip ? b : viewPosition(ia + 2);
+  uint wa = attributes[ia], wb = attributes[ia + 1];
+  float radius_max = frame.hairs[hair_slot].radius_max;
+  vec4 at_a = vec4(attributeRadius(wa, radius_max), attributeFraction(wa), 0.0, 0.0);
+  vec4 at_b_end = vec4(attributeRadius(wb, radius_max), attributeFraction(wb), 0.0, 0.0);
+
+  vec3 own = unitOrZero(b - a);
+  vec3 tangent_a = vertexTangent(unitOrZero(a - before), own, own);
+  vec3 tangent_b = vertexTangent(own, unitOrZero(after - b), own);
+
+  // Near plane.
+  bool hidden = depthOf(a) < frame.near_plane && depthOf(b) < frame.near_plane;
+  bool cut_a = depthOf(a) < frame.near_plane, cut_b = depthOf(b) < frame.near_plane;
+  if (!hidden && (cut_a || cut_b)) {
+    float u = (frame.near_plane - depthOf(a)) / (depthOf(b) - depthOf(a));  // one is before the plane, one is not
+    vec3 p = vec3(mix(a.xy, b.xy, u), -frame.near_plane);
+    vec4 cut = mix(at_a, at_b_end, u);
+    vec3 tangent = mix(tangent_a, tangent_b, u);
+    if (cut_a) { a = p; at_a = cut; tangent_a = tangent; }
+    else { b = p; at_b_end = cut; tangent_b = tangent; }
+  }
+
+  FlatSegment segment = flatSegment(toPixel(a), toPixel(b));
+  gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);  // four equal corners: nothing is drawn
+  if (hidden || !(segment.l > 0.0)) return;
+
+  float extent = pixelHalfExtent(segment.t);  // also of the pixel along t: |n.x| = |t.y|
+  float ha = pixelHalfWidth(at_a.x, a, segment.t), hb = pixelHalfWidth(at_b_end.x, b, segment.t);
+  float ramp = root && tip ? extent : min(extent, segment.l);
+  bool root_ramp = root && !cut_a, tip_ramp = tip && !cut_b;
+
+  vec2 corner;
+  vec2 p = at_b ? segment.b : segment.a;
+  float reach = (at_b ? hb : ha) + extent;
+  vec2 outward = at_b ? segment.t : -segment.t;
+  bool ends = at_b ? tip || cut_b : root || cut_a;
+  FlatSegment other = segment;
+  if (!ends) other = at_b ? flatSegment(segment.b, toPixel(clippedToward(b, after)))
+                          : flatSegment(toPixel(clippedToward(a, before)), segment.a);
+  if (ends || !(other.l > 0.0)) {
+    corner = endCorner(p, side, reach, segment.t, outward, (at_b ? tip_ramp : root_ramp) ? ramp : 0.0);
+  } else {
+    float h_other = pixelHalfWidth(at_b ? at_b_end.x : at_a.x, at_b ? b : a, other.t);
+    reach = max(reach, h_other + pixelHalfExtent(other.t));
+    if (at_b) corner = jointCorner(p, side, reach, segment, other, true);
+    else corner = jointCorner(p, side, reach, other, segment, false);
+  }
+
+  gl_Position = vec4(corner / frame.size * 2.0 - 1.0, 0.0, 1.0);
+  out_axis = vec4(segment.a, segment.t);
+  out_extent = vec4(segment.l, ha, hb, root_ramp ? extent / ramp : 0.0);
+  out_depth = vec4(tip_ramp ? extent / ramp : 0.0, depthOf(a), depthOf(b), at_a.y);
+  out_tangent_a = vec4(at_b_end.y, tangent_a);
+  out_tangent_b = vec4(tangent_b, float(attributeHash(wa)));
+}

@@ -1,0 +1,32 @@
+// Colours that show data instead of light, captured like the forward method.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define FLK_BIND_HAIR
+#define FLK_BIND_LISTS
+#include "bindings.glsl"
+#include "../lib/capture_fragment.glsl"
+#include "../lib/packing.glsl"
+#include "../lib/projection.glsl"
+#include "../lib/display.glsl"
+#include "capture_store.glsl"
+
+layout(constant_id = FLK_SPEC_DISPLAY) const int kDisplay = 0;
+
+layout(location = 0) flat in vec4 in_axis;
+layout(location = 1) flat in vec4 in_extent;
+layout(location = 2) flat in vec4 in_depth;
+layout(location = 3) flat in vec4 in_tangent_a;
+layout(location = 4) flat in vec4 in_tangent_b;
+
+void main() {
+  StrandFragment f = strandFragment(gl_FragCoord.xy, in_axis, in_extent, in_depth, in_tangent_a, in_tangent_b, frame.orthographic);
+  float opacity = mix(frame.hairs[hair_slot].opacity_root, frame.hairs[hair_slot].opacity_tip, f.fraction);
+  uint alpha = alphaCodeColor(clamp(f.coverage * opacity, 0.0, 1.0), FLK_CODING_DEFAULT);
+  if (alpha == 0u || behindHostDepth(f.depth)) return;
+  vec3 color = vec3(1.0);
+  if (kDisplay == FLK_SHOW_STRAND) color = strandColor(uint(in_tangent_b.w));
+  else if (kDisplay == FLK_SHOW_ROOT_TIP) color = rootTipColor(f.fraction);
+  else if (kDisplay == FLK_SHOW_WIDTH) color = widthColor(f.width_px);
+  else if (kDisplay == FLK_SHOW_DEPTH) color = depthColor(f.depth, frame.depth_range);
+  storeFragment(f.depth, packColor(color / frame.exposure, alpha, frame.exposure, FLK_CODING_DEFAULT));
+}

@@ -1,0 +1,56 @@
+// What every pass of a frame reads: one storage buffer, written once a frame.
+#ifndef FORELOCK_SHARED_FRAME_H
+#define FORELOCK_SHARED_FRAME_H
+#include "types.h"
+#include "node.h"
+#ifdef __cplusplus
+namespace forelock::gpu {
+#endif
+
+struct HairConstants {
+  mat4x3 view_from_hair;
+  mat4x3 texels_from_hair;  // shadow map: x, y in texels, z in metre
+  float radius_max;         // metre in view space, material's scale included
+  float opacity_root;
+  float opacity_tip;
+  float diffuse;
+  vec3 color;
+  float specular_r;
+  float exponent_r;
+  float specular_trt;
+  float exponent_trt;
+  float shadow_log2;        // log2(1 - opacity of a fibre); -inf is sent as -FLT_MAX
+  float fibres_per_metre;
+  float cos_r, sin_r;       // of 2 x tilt
+  float cos_trt, sin_trt;   // of 3 x tilt
+  float unused;
+};
+
+struct FrameConstants {
+  vec2 proj_scale;      // P00, P11
+  vec2 proj_offset;     // P20, P21 (perspective) or P30, P31 (orthographic)
+  vec2 proj_depth;      // P22, P32
+  float orthographic;   // 1 or 0
+  float near_plane;     // metre
+  vec2 size;            // pixels of the target
+  vec2 pixels_per_unit; // |P00| W / 2, |P11| H / 2
+  uvec4 rect;           // x, y, width, height in pixels: where heads exist
+  uint node_capacity;
+  float exposure;
+  vec2 depth_range;     // nearest and farthest hair (metre), for FLK_DISPLAY_DEPTH
+  vec3 light_direction; // view space, to the light
+  float shadow_texel;   // metre
+  vec3 light_radiance;
+  float shadow_range;   // metre of depth in the map
+  vec3 ambient;
+  uint shadow_size;     // texels a side
+  mat4x3 texels_from_view;
+  HairConstants hairs[FLK_MAX_HAIRS];
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(HairConstants) == 168);
+static_assert(sizeof(FrameConstants) == 188 + FLK_MAX_HAIRS * sizeof(HairConstants));
+}  // namespace forelock::gpu
+#endif
+#endif

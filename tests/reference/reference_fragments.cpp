@@ -1,0 +1,203 @@
+// Coverage (section 2), the coding of section 3, the fragment lists, and the supersampled R_cover.
+#include "reference_quads.h"
+
+namespace forelock::reference {
+namespace {
+
+constexpr int band_rows = 8;  // rows of one job
+
+struct Binned {
+  std::vector<std::vector<uint32_t>> bands;  // segment numbers, in submission order
+};
+
+Binned binSegments(const std::vector<ScreenSegment>& segments, int rows, int rows_per_band) {
+  Binned binned;
+  const int bands = (rows + rows_per_band - 1) / rows_per_band;
+  binned.bands.resize(size_t(bands));
+  for (size_t i = 0; i < segments.size(); ++i) {
+    double low = segments[i].plane.corner[0].y, high = low;
+    bool finite = true;
+    for (const Vec2& c : segments[i].plane.corner) {
+      finite = finite && std::isfinite(c.x) && std::isfinite(c.y);
+      low = std::min(low, c.y);
+      high = std::max(high, c.y);
+    }
+    if (!finite || high < 0 || low >= rows) continue;
+    const int first = int(std::max(0.0, low)) / rows_per_band;
+    const int last = int(std::min(double(rows - 1), high)) / rows_per_band;
+    for (int band = first; band <= last; ++band) binned.bands[size_t(band)].push_back(uint32_t(i));
+  }
+  return binned;
+}
+
+double signOf(double t) { return t > 0 ? 1 : t < 0 ? -1 : 0; }
+
+struct Placed {
+  double x, y, v;  // along n, along t, clamped segment parameter on the screen
+};
+
+Placed place(const PlaneSegment& s, int column, int row) {
+  const Vec2 from_a = Vec2{column + 0.5, row + 0.5} - s.a;
+  const double y = dot(from_a, s.t);
+  return {dot(from_a, s.n), y, std::clamp(y / s.l, 0.0, 1.0)};
+}
+
+double coverageAt(const PlaneSegment& s, const Placed& at) {
+  const double h = mix(s.h_a, s.h_b, at.v);
+  const double strip = pixelHalfArea(at.x + h, s.n.x, s.n.y) - pixelHalfArea(at.x - h, s.n.x, s.n.y);
+  double root = 1, tip = 1;
+  // A pixel seen along t has the same extents as along n, with the components swapped.
+  if (s.e_root > 0) root = pixelHalfArea(at.y * s.extent / s.e_root, s.t.x, s.t.y) + 0.5;
+  if (s.e_tip > 0) tip = pixelHalfArea((s.l - at.y) * s.extent / s.e_tip, s.t.x, s.t.y) + 0.5;
+  return strip * std::max(root + tip - 1, 0.0);
+}
+
+// The segment parameter in 3-D and the depth there.
+struct Along {
+  double u, depth;
+};
+Along along(const ScreenSegment& s, double v, bool perspective) {
+  if (!perspective) return {v, mix(s.depth_a, s.depth_b, v)};
+  const double depth = 1 / ((1 - v) / s.depth_a + v / s.depth_b);
+  return {v * depth / s.depth_b, depth};
+}
+
+double opacityAt(const Material& material, double fraction) {
+  return mix(material.opacity_root, material.opacity_tip, fraction);
+}
+
+}  // namespace
+
+double pixelHalfArea(double t, double nx, double ny) {
+  const double a = std::max(std::fabs(nx), std::fabs(ny)), b = std::min(std::fabs(nx), std::fabs(ny));
+  const double d = std::fabs(t);
+  if (d <= (a - b) / 2) return t / a;
+  const double rest = (a + b) / 2 - d;
+  if (rest <= 0 || b <= 0) return signOf(t) / 2;
+  return signOf(t) * (0.5 - rest * rest / (2 * a * b));
+}
+
+double codedAlpha(double alpha, Payload payload) {
+  if (payload == Payload::standard) {
+    const double q = std::floor(std::sqrt(alpha) * 1023 + 0.5) / 1023;
+    return q * q;
+  }
+  if (payload == Payload::paper) return alpha < 1.0 / 255 ? 0 : std::floor(alpha * 255 + 0.5) / 255;
+  return alpha;
+}
+
+Vec3 codedTangent(Vec3 tangent, Payload payload) {
+  if (payload == Payload::unquantised) return tangent;
+  const double steps = payload == Payload::standard ? 2046 : 4094;  // 2^bits - 2
+  const double sum = std::fabs(tangent.x) + std::fabs(tangent.y) + std::fabs(tangent.z);
+  // A zero tangent has no code of its own: it takes that of +z.
+  double u = sum > 0 ? tangent.x / sum : 0, v = sum > 0 ? tangent.y / sum : 0;
+  auto fold = [](double& p, double& q) {
+    const double old = p;
+    p = (1 - std::fabs(q)) * (p >= 0 ? 1 : -1);
+    q = (1 - std::fabs(old)) * (q >= 0 ? 1 : -1);
+  };
+  if (tangent.z < 0) fold(u, v);
+  u = std::floor((u + 1) / 2 * steps + 0.5) / steps * 2 - 1;
+  v = std::floor((v + 1) / 2 * steps + 0.5) / steps * 2 - 1;
+  const double z = 1 - std::fabs(u) - std::fabs(v);
+  if (z < 0) fold(u, v);
+  return normalizeOrZero({u, v, z});
+}
+
+FragmentLists gatherFragments(const Scene& scene, const Camera& camera, const GatherOptions& options) {
+  const std::vector<ScreenSegment> segments = screenSegments(scene, camera, 1, false);
+  const bool perspective = isPerspective(camera);
+  const Binned binned = binSegments(segments, camera.height, band_rows);
+  const int bands = int(binned.bands.size());
+
+  struct Band {
+    std::vector<Fragment> sorted;
+    std::vector<uint32_t> count;
+  };
+  std::vector<Band> out{size_t(bands)};
+  parallelFor(bands, options.threads, [&](int band) {
+    const int row_begin = band * band_rows, row_end = std::min(camera.height, row_begin + band_rows);
+    std::vector<Fragment> found;
+    std::vector<uint32_t> pixel_of;
+    std::vector<uint32_t> count(size_t(row_end - row_begin) * size_t(camera.width));
+    for (const uint32_t index : binned.bands[size_t(band)]) {
+      const ScreenSegment& s = segments[index];
+      const Hair& hair = scene.hairs[s.hair];
+      forEachCell(s.plane.corner, camera.width, row_begin, row_end, [&](int column, int row) {
+        const Placed at = place(s.plane, column, row);
+        const double coverage = coverageAt(s.plane, at);
+        const Along where = along(s, at.v, perspective);
+        const double fraction = mix(s.fraction_a, s.fraction_b, where.u);
+        const double alpha = std::clamp(coverage * opacityAt(hair.material, fraction), 0.0, 1.0);
+        const double coded = codedAlpha(alpha, options.payload);
+        if (!(coded > 0)) return;
+        const size_t pixel = size_t(row) * size_t(camera.width) + size_t(column);
+        if (!options.host_depth.empty() && !(where.depth <= options.host_depth[pixel])) return;
+        const Vec3 tangent = normalizeOrZero(mix(s.tangent_a, s.tangent_b, where.u));
+        found.push_back({where.depth, coded, coverage, codedTangent(tangent, options.payload), hair.slot, s.sequence});
+        const uint32_t local = uint32_t(pixel - size_t(row_begin) * size_t(camera.width));
+        pixel_of.push_back(local);
+        ++count[local];
+      });
+    }
+    std::vector<uint32_t> cursor(count.size());
+    uint32_t sum = 0;
+    for (size_t i = 0; i < count.size(); ++i) {
+      cursor[i] = sum;
+      sum += count[i];
+    }
+    out[size_t(band)].sorted.resize(found.size());
+    for (size_t i = 0; i < found.size(); ++i) out[size_t(band)].sorted[cursor[pixel_of[i]]++] = found[i];
+    out[size_t(band)].count = std::move(count);
+  });
+
+  FragmentLists lists;
+  lists.width = camera.width;
+  lists.height = camera.height;
+  lists.first.reserve(size_t(camera.width) * size_t(camera.height) + 1);
+  lists.first.push_back(0);
+  size_t total = 0;
+  for (const Band& band : out) total += band.sorted.size();
+  lists.fragments.reserve(total);
+  for (Band& band : out) {
+    for (const uint32_t n : band.count) lists.first.push_back(lists.first.back() + n);
+    lists.fragments.insert(lists.fragments.end(), band.sorted.begin(), band.sorted.end());
+    band = {};
+  }
+  return lists;
+}
+
+std::vector<double> renderCover(const Scene& scene, const Camera& camera, int samples, int threads) {
+  const std::vector<ScreenSegment> segments = screenSegments(scene, camera, samples, true);
+  const bool perspective = isPerspective(camera);
+  const Binned binned = binSegments(segments, camera.height * samples, samples);
+  std::vector<double> cover(size_t(camera.width) * size_t(camera.height));
+  const int columns = camera.width * samples;
+  parallelFor(camera.height, threads, [&](int pixel_row) {
+    const auto& band = binned.bands[size_t(pixel_row)];
+    if (band.empty()) return;
+    std::vector<double> transmittance(size_t(columns) * size_t(samples), 1.0);
+    const int row_begin = pixel_row * samples;
+    for (const uint32_t index : band) {
+      const ScreenSegment& s = segments[index];
+      const Material& material = scene.hairs[s.hair].material;
+      forEachCell(s.plane.corner, columns, row_begin, row_begin + samples, [&](int column, int row) {
+        const Placed at = place(s.plane, column, row);
+        if (std::fabs(at.x) > mix(s.plane.h_a, s.plane.h_b, at.v)) return;
+        const double fraction = mix(s.fraction_a, s.fraction_b, along(s, at.v, perspective).u);
+        double& t = transmittance[size_t(row - row_begin) * size_t(columns) + size_t(column)];
+        t *= 1 - std::clamp(opacityAt(material, fraction), 0.0, 1.0);
+      });
+    }
+    for (int row = 0; row < samples; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        cover[size_t(pixel_row) * size_t(camera.width) + size_t(column / samples)] +=
+            (1 - transmittance[size_t(row) * size_t(columns) + size_t(column)]) / (double(samples) * samples);
+      }
+    }
+  });
+  return cover;
+}
+
+}  // namespace forelock::reference

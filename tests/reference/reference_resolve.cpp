@@ -1,0 +1,90 @@
+// Section 6: the fragments of a pixel to its colour.
+#include "reference_vector.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace forelock::reference {
+namespace {
+
+bool nearer(const Fragment& a, const Fragment& b) {
+  return std::tie(a.depth, a.slot, a.sequence) < std::tie(b.depth, b.slot, b.sequence);
+}
+
+struct Tail {
+  std::array<double, 3> color{};
+  double transmittance = 1;
+};
+
+}  // namespace
+
+Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMap> maps, const FragmentLists& lists,
+              const ResolveOptions& options) {
+  Image image;
+  image.width = lists.width;
+  image.height = lists.height;
+  image.pixels.resize(size_t(lists.width) * size_t(lists.height));
+  const bool exact = options.method == Method::exact;
+  const size_t k_sort = size_t(std::max(options.k_sort, 0));
+
+  parallelFor(lists.height, options.threads, [&](int y) {
+    std::vector<Fragment> core;
+    for (int x = 0; x < lists.width; ++x) {
+      const std::span<const Fragment> list = lists.at(x, y);
+      if (list.empty()) continue;
+      Pixel& pixel = image.at(x, y);
+      pixel.fragments = uint32_t(list.size());
+      auto shade = [&](const Fragment& f, bool full) { return shadeFragment(scene, camera, maps, x, y, f, full); };
+
+      Tail tail;
+      core.clear();
+      if (exact) {
+        core.assign(list.begin(), list.end());
+        std::sort(core.begin(), core.end(), nearer);
+      } else {
+        for (size_t i = list.size(); i-- > 0;) {  // the last stored is met first
+          Fragment out = list[i];
+          if (core.size() < k_sort || (k_sort > 0 && nearer(out, core.back()))) {
+            core.insert(std::upper_bound(core.begin(), core.end(), out, nearer), out);
+            if (core.size() <= k_sort) continue;
+            out = core.back();
+            core.pop_back();
+          }
+          std::array<double, 3> color{};
+          if (options.method != Method::core_only) color = shade(out, options.method == Method::forward);
+          for (size_t c = 0; c < 3; ++c) tail.color[c] = out.alpha * color[c] + (1 - out.alpha) * tail.color[c];
+          tail.transmittance *= 1 - out.alpha;
+        }
+      }
+      double transmittance = 1;
+      for (size_t i = 0; i < core.size(); ++i) {
+        const bool full = exact || options.method == Method::forward || int(i) < options.k;
+        const std::array<double, 3> color = transmittance > 0 ? shade(core[i], full) : std::array<double, 3>{};
+        for (size_t c = 0; c < 3; ++c) pixel.rgb[c] += transmittance * core[i].alpha * color[c];
+        transmittance *= 1 - core[i].alpha;
+      }
+      for (size_t c = 0; c < 3; ++c) pixel.rgb[c] += transmittance * tail.color[c];
+      pixel.transmittance = transmittance * tail.transmittance;
+    }
+  });
+  return image;
+}
+
+std::vector<double> opacityOf(const Image& image) {
+  std::vector<double> out;
+  out.reserve(image.pixels.size());
+  for (const Pixel& pixel : image.pixels) out.push_back(1 - pixel.transmittance);
+  return out;
+}
+
+std::vector<double> opacityOf(const FragmentLists& lists) {
+  std::vector<double> out(size_t(lists.width) * size_t(lists.height));
+  for (size_t pixel = 0; pixel < out.size(); ++pixel) {
+    double t = 1;
+    for (uint64_t i = lists.first[pixel]; i < lists.first[pixel + 1]; ++i) t *= 1 - lists.fragments[i].alpha;
+    out[pixel] = 1 - t;
+  }
+  return out;
+}
+
+}  // namespace forelock::reference

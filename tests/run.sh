@@ -1,0 +1,115 @@
+#!/bin/sh
+# Builds and runs the tests: sh tests/run.sh
+set -eu
+cd "$(dirname "$0")/.."
+. samples/setup.sh
+
+install=1
+fuzz_seconds=15
+for argument in "$@"; do
+  case $argument in
+    --no-install) install=0 ;;
+    --full) fuzz_seconds=240 ;;
+    -h | --help)
+      cat <<'TEXT'
+usage: sh tests/run.sh [--full] [--no-install]
+
+Installs the Debian packages that are missing, then
+  1. builds everything (Release) in build/ and runs all tests with ctest;
+  2. builds the rooms that need no GPU with AddressSanitizer and UBSan in build/sanitize and runs their tests;
+  3. builds the fuzz targets with clang in build/fuzz and runs each for a short while.
+Exits with 0 when all passed. A second run installs and rebuilds nothing. To run less:
+  ctest --test-dir build -L LABEL     labels: ctest --test-dir build --print-labels
+
+  --full         longer fuzzing (4 minutes a target instead of 15 seconds)
+  --no-install   install nothing; fails later if something is missing
+TEXT
+      exit 0 ;;
+    *) fail "unknown argument '$argument'; see --help" ;;
+  esac
+done
+
+passed=0
+failed=0
+failures=
+
+# A test executable that fails is counted here, and the rest runs all the same.
+count() {  # count NAME STATUS
+  if [ "$2" = 0 ]; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    failures="$failures $1"
+  fi
+}
+
+runTests() {  # runTests FOLDER ctest-options...
+  folder=$1
+  shift
+  log=$folder/ctest.log
+  status=0
+  ctest --test-dir "$folder" --output-on-failure --no-tests=error --output-log "$log" \
+    --parallel "$(jobCount)" "$@" || status=$?
+  # "97% tests passed, 1 tests failed out of 30"; a skipped or missing test is not among the passed.
+  total=$(sed -n 's/.*tests passed, [0-9]* tests failed out of \([0-9]*\).*/\1/p' "$log" | tail -n 1)
+  bad=$(sed -n 's/.*tests passed, \([0-9]*\) tests failed out of .*/\1/p' "$log" | tail -n 1)
+  skipped=$(grep -c 'Skipped\|Not Run (Disabled)' "$log") || skipped=0
+  if [ -z "$total" ]; then
+    count "ctest:$folder" 1
+    return 0
+  fi
+  passed=$((passed + total - bad - skipped))
+  failed=$((failed + bad))
+  if [ "$status" != 0 ] && [ "$bad" = 0 ]; then count "ctest:$folder" 1; fi
+  if [ "$bad" != 0 ]; then
+    failures="$failures $(sed -n 's/^[[:space:]]*[0-9]* - \([^ ]*\) (.*/\1/p' "$log" | sort -u | tr '\n' ' ')"
+  fi
+  if [ "$skipped" != 0 ]; then say "$skipped skipped in $folder"; fi
+}
+
+# Those of the targets named that FOLDER has.
+targetsOf() {  # targetsOf FOLDER extended-regular-expression
+  cmake --build "$1" --target help | sed 's/:.*//; s/^\.\.\. //' | grep -E -x "$2" | sort -u
+}
+
+[ $install = 0 ] || installPackages build test
+
+say "1. everything, Release, in build/"
+configure build -DCMAKE_BUILD_TYPE=Release -DFORELOCK_TESTS=ON
+build build
+runTests build
+
+say "2. rooms without a GPU, with AddressSanitizer and UBSan, in build/sanitize"
+configure build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DFORELOCK_SANITIZE=address,undefined
+targets=$(targetsOf build/sanitize 'test_(asset|reference|plan|groom|api)')
+build build/sanitize $targets
+runTests build/sanitize -R "^($(echo $targets | tr ' ' '|'))\$"
+
+say "3. fuzz targets, $fuzz_seconds s each, in build/fuzz"
+if command -v clang++ >/dev/null 2>&1; then
+  configure build/fuzz -DCMAKE_BUILD_TYPE=RelWithDebInfo -DFORELOCK_FUZZ=ON \
+    -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
+  targets=$(targetsOf build/fuzz 'fuzz_[a-z0-9_]*')
+  [ -n "$targets" ] || count "fuzz:no-target" 1
+  [ -z "$targets" ] || build build/fuzz $targets
+  for target in $targets; do
+    say "$target"
+    # What a run finds new is kept, so that the next one starts from there; what breaks is kept beside it.
+    corpus=build/fuzz/corpus/$target
+    mkdir -p "$corpus"
+    seeds=
+    if [ -d "tests/fuzz/seeds/$target" ]; then seeds=tests/fuzz/seeds/$target; fi
+    status=0
+    build/fuzz/"$target" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -max_len=65536 \
+      -print_final_stats=0 -verbosity=0 -artifact_prefix=build/fuzz/"$target"- "$corpus" $seeds || status=$?
+    count "$target" "$status"
+  done
+else
+  # Only where packages are not installed by this script: there, no fuzzing is a failure and not a silent pass.
+  say "no clang++: the fuzz targets were not run"
+  count "fuzz:no-clang" 1
+fi
+
+if [ "$failed" != 0 ]; then say "failed:$failures"; fi
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]

@@ -13,7 +13,7 @@ namespace forelock::samples {
 namespace {
 
 constexpr uint32_t kTile = 16;
-constexpr float kHit = 0.00015f;     // (m)
+constexpr float kHit = 0.0001f;      // (m), or a third of a pixel where that is more
 constexpr float kRelaxed = 0.85f;    // the field may overestimate where ellipsoids are slender
 constexpr float kReach = 0.62f;      // (m) of the whole bust from its centre
 const glm::vec3 kCentre(0.0f, -0.16f, 0.0f);
@@ -127,9 +127,9 @@ BustImage drawBust(const Camera& camera, uint32_t width, uint32_t height, const 
         maker.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, origin, direction);
         float t = start;
         bool hit = false;
-        for (int i = 0; i < 96 && t < to + widest; ++i) {
+        for (int i = 0; i < 128 && t < to + widest; ++i) {
           const float d = shape::bust<float>(origin + direction * t);
-          if (d < kHit) {
+          if (d < std::max(kHit, 0.33f * maker.pixel_size * (maker.orthographic ? 1.0f : t))) {
             hit = true;
             break;
           }

@@ -53,14 +53,32 @@ template <typename T>
 T torso(const Vec3<T>& q) {  // q.x >= 0
   using V = Vec3<T>;
   T d = capsule(q, V(0, T(-0.075), T(-0.024)), V(0, T(-0.215), T(-0.045)), T(0.050), T(0.056));
+  if (q.y + T(0.130) > d + T(0.060)) {  // high above all that follows
+    return d;
+  }
   d = smoothMin(d, capsule(q, V(T(0.020), T(-0.175), T(-0.056)), V(T(0.150), T(-0.222), T(-0.050)), T(0.036), T(0.036)),
                 T(0.040));
   d = smoothMin(d, capsule(q, V(T(0.050), T(-0.262), T(-0.046)), V(T(0.158), T(-0.252), T(-0.046)), T(0.062), T(0.060)),
                 T(0.045));
   d = smoothMin(d, ellipsoid(q, V(0, T(-0.375), T(-0.030)), V(T(0.160), T(0.175), T(0.100))), T(0.060));
-  d = smoothMin(d, ellipsoid(q, V(T(0.068), T(-0.368), T(0.020)), V(T(0.072), T(0.075), T(0.062))), T(0.060));
+  d = smoothMin(d, ellipsoid(q, V(T(0.066), T(-0.372), T(0.018)), V(T(0.074), T(0.078), T(0.058))), T(0.060));
   d = smoothMin(d, capsule(q, V(T(0.176), T(-0.268), T(-0.048)), V(T(0.205), T(-0.460), T(-0.050)), T(0.050), T(0.044)),
                 T(0.040));
+  return d;
+}
+
+template <typename T>
+T face(T d, const Vec3<T>& q) {  // q.x >= 0; d: the head without features
+  using V = Vec3<T>;
+  d = smoothMin(d, ellipsoid(q, V(0, T(-0.098), T(0.062)), V(T(0.024), T(0.018), T(0.024))), T(0.034));     // chin
+  d = smoothMin(d, ellipsoid(q, V(T(0.038), T(-0.030), T(0.056)), V(T(0.022), T(0.022), T(0.022))), T(0.030));  // cheek
+  d = smoothMin(d, ellipsoid(q, V(T(0.022), T(0.018), T(0.068)), V(T(0.028), T(0.011), T(0.013))), T(0.028));   // brow
+  d = smoothMax(d, -ellipsoid(q, V(T(0.031), T(-0.002), T(0.100)), V(T(0.018), T(0.011), T(0.017))), T(0.018));
+  d = smoothMin(d, ellipsoid(q, V(T(0.031), T(-0.003), T(0.0690)), V(T(0.0150), T(0.0095), T(0.0125))), T(0.008));
+  d = smoothMin(d, capsule(q, V(0, T(0.010), T(0.080)), V(0, T(-0.034), T(0.102)), T(0.0065), T(0.0085)), T(0.014));
+  d = smoothMin(d, ellipsoid(q, V(T(0.0100), T(-0.039), T(0.094)), V(T(0.0070), T(0.0062), T(0.0095))), T(0.008));
+  d = smoothMin(d, ellipsoid(q, V(T(0.005), T(-0.0640), T(0.0850)), V(T(0.0165), T(0.0045), T(0.0085))), T(0.009));
+  d = smoothMin(d, ellipsoid(q, V(0, T(-0.0725), T(0.0840)), V(T(0.0165), T(0.0055), T(0.0085))), T(0.009));
   return d;
 }
 
@@ -69,23 +87,19 @@ T head(const Vec3<T>& q) {  // q.x >= 0
   using V = Vec3<T>;
   T d = ellipsoid(q, V(0, T(0.022), T(-0.014)), V(T(0.076), T(0.088), T(0.096)));
   d = smoothMin(d, ellipsoid(q, V(0, T(-0.034), T(0.030)), V(T(0.061), T(0.084), T(0.060))), T(0.030));
-  d = smoothMin(d, ellipsoid(q, V(0, T(-0.096), T(0.060)), V(T(0.026), T(0.020), T(0.026))), T(0.030));
-  d = smoothMin(d, ellipsoid(q, V(T(0.040), T(-0.030), T(0.058)), V(T(0.022), T(0.022), T(0.022))), T(0.026));
-  d = smoothMin(d, ellipsoid(q, V(T(0.026), T(0.017), T(0.078)), V(T(0.028), T(0.009), T(0.012))), T(0.018));
-  d = smoothMax(d, -ellipsoid(q, V(T(0.031), T(-0.002), T(0.098)), V(T(0.019), T(0.012), T(0.016))), T(0.016));
-  d = smoothMin(d, ellipsoid(q, V(T(0.030), T(-0.003), T(0.073)), V(T(0.0135), T(0.0120), T(0.0125))), T(0.004));
-  d = smoothMin(d, capsule(q, V(0, T(0.006), T(0.086)), V(0, T(-0.034), T(0.105)), T(0.0060), T(0.0085)), T(0.012));
-  d = smoothMin(d, ellipsoid(q, V(T(0.0105), T(-0.039), T(0.096)), V(T(0.0075), T(0.0065), T(0.0100))), T(0.007));
-  d = smoothMin(d, ellipsoid(q, V(T(0.004), T(-0.0635), T(0.0880)), V(T(0.0200), T(0.0050), T(0.0085))), T(0.006));
-  d = smoothMin(d, ellipsoid(q, V(0, T(-0.0725), T(0.0860)), V(T(0.0190), T(0.0062), T(0.0090))), T(0.006));
-  d = smoothMin(d, ellipsoid(q, V(T(0.074), T(-0.012), T(-0.010)), V(T(0.010), T(0.030), T(0.017))), T(0.012));
+  d = smoothMin(d, ellipsoid(q, V(T(0.074), T(-0.012), T(-0.010)), V(T(0.010), T(0.030), T(0.017))), T(0.012));  // ear
+  const T fx = q.x, fy = q.y + T(0.036), fz = q.z - T(0.078);
+  if (std::sqrt(fx * fx + fy * fy + fz * fz) - T(0.088) < d + T(0.034)) {
+    d = face(d, q);
+  }
   return d;
 }
 
 // Signed distance (m) of p to the bust, negative inside. The bust ends in a flat base at y = -0.43.
 template <typename T>
 T bust(const Vec3<T>& p) {
-  const Vec3<T> q(p.x < T(0) ? -p.x : p.x, p.y, p.z);
+  // A rounded |x|: the mirror plane leaves no crease.
+  const Vec3<T> q(std::sqrt(p.x * p.x + T(0.000036)), p.y, p.z);
   constexpr T joint = T(0.034);
   T d = torso(q);
   // Beyond the joint's reach the smooth minimum is the plain one: the head need not be looked at.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "camera.h"
 
-#include "recipe.h"
+#include "groom_recipe.h"
 
 #include <glm/geometric.hpp>
 

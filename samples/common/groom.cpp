@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <cstring>
 
 namespace forelock::samples {
 
@@ -58,10 +58,15 @@ std::vector<Root> plantRoots(const Recipe& recipe, const Body& body) {
       continue;
     }
     root.position = recipe.scalp.centre + direction * recipe.scalp.radii;
-    for (int i = 0; i < 4; ++i) {  // the scalp's ellipsoid is close to the skin, not on it
-      root.position -= body.normal(root.position) * body.distance(root.position);
+    const double depth = body.distance(root.position);
+    if (depth < -0.004) {
+      continue;  // under an ear, not on the scalp
     }
-    root.normal = body.normal(root.position);
+    const glm::dvec3 slope = direction / recipe.scalp.radii;
+    root.normal = slope / std::sqrt(glm::dot(slope, slope));
+    for (int i = 0; i < 4; ++i) {  // the scalp's ellipsoid is close to the skin, not on it
+      root.position -= root.normal * body.distance(root.position);
+    }
     root.height = smoothStep(-0.5, 0.95, direction.y);
     root.frontness = smoothStep(-0.1, 0.8, direction.z);
     root.side = root.position.x >= recipe.parting.offset ? 1.0 : -1.0;
@@ -142,10 +147,15 @@ GrownPath Grower::growRaw(uint32_t index, size_t steps, double* fly) const {
 
 void Grower::gather(GrownPath& path, const GrownPath& guide, const ClumpLevel& level, double share) const {
   const size_t count = std::min(path.points.size(), guide.points.size());
+  double bond = 1.0;
   for (size_t i = 0; i < count; ++i) {
     const double t = static_cast<double>(i) * step_ / recipe_.length.mean;
-    const double pull = share * pullAt(level, t);
-    path.points[i] += (guide.points[i] - path.points[i]) * pull;
+    // A strand that has gone another way, say to the back where its clump went to the chest, is lost to the clump for
+    // good: pulling it back would take it through the shoulder.
+    const glm::dvec3 apart = guide.points[i] - path.points[i];
+    bond = std::min(bond, 1.0 - smoothStep(0.025, 0.055, std::sqrt(glm::dot(apart, apart))));
+    const double pull = share * bond * pullAt(level, t);
+    path.points[i] += apart * pull;
     path.outward[i] += (guide.outward[i] - path.outward[i]) * pull;
   }
 }
@@ -211,7 +221,7 @@ glm::dvec3 Grower::swing(const Wave& wave, uint64_t stream, uint32_t coarse, uin
   const double wavelength = wave.wavelength * (1.0 + 0.4 * wave.variation * hashSigned(seed, stream, coarse));
   const double size = 1.0 + 0.7 * wave.variation * hashSigned(seed, stream + 1, fine);
   const double shared = 1.2 * noise3(seed, stream + 2, roots_[coarse].position * 14.0);
-  const double own = hashUnit(seed, stream + 3, fine);
+  const double own = 0.7 * hashUnit(seed, stream + 3, coarse) + 0.3 * hashUnit(seed, stream + 6, fine);
   double phase = s / wavelength + wave.coherence * shared + (1.0 - wave.coherence) * own;
   phase += 0.04 * hashSigned(seed, stream + 4, index);
   // No head of hair repeats itself exactly: the phase wanders along the lock.
@@ -323,7 +333,7 @@ void hashBytes(uint64_t& hash, const void* data, size_t size) {
 
 }  // namespace
 
-Groom makeGroom(const Recipe& recipe) {
+Groom makeGroom(const Recipe& recipe, const std::function<void(uint64_t, uint64_t)>& progress) {
   const Grower grower(recipe);
   const size_t strands = recipe.strands;
   const size_t vertices = strands * recipe.vertices;
@@ -335,7 +345,14 @@ Groom makeGroom(const Recipe& recipe) {
   groom.positions.resize(3 * vertices);
   groom.radii.resize(vertices);
   groom.root_uvs.resize(2 * strands);
-  parallelFor(strands, 64, [&](size_t i) { grower.growStrand(static_cast<uint32_t>(i), groom); });
+  std::atomic<uint64_t> done{0};
+  parallelFor(strands, 64, [&](size_t i) {
+    grower.growStrand(static_cast<uint32_t>(i), groom);
+    const uint64_t finished = ++done;
+    if (progress && finished % 256 == 0) {
+      progress(finished, strands);
+    }
+  });
   return groom;
 }
 

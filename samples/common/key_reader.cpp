@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "key_reader.h"
 
-#include "recipe.h"
+#include "groom_recipe.h"
 
 #include <algorithm>
 #include <cmath>

@@ -21,7 +21,8 @@ glm::dvec3 normalizeOr(const glm::dvec3& v, const glm::dvec3& fallback) {
 glm::dvec3 combedDirection(const Recipe& recipe, const Root& root) {
   const glm::dvec3 whorl = recipe.scalp.centre + glm::dvec3(recipe.parting.offset, recipe.scalp.radii.y * 0.85,
                                                             -recipe.scalp.radii.z * 0.55);
-  const glm::dvec3 parted(root.side * recipe.parting.strength, 0.0, -recipe.flow.back);
+  // The downward part is for the temples, where what points sideways has next to no direction along the skin.
+  const glm::dvec3 parted(root.side * recipe.parting.strength, -0.4, -recipe.flow.back);
   const glm::dvec3 radial = normalizeOr(root.position - whorl, glm::dvec3(0.0, -1.0, 0.0));
   const double front = smoothStep(whorl.z - 0.02, whorl.z + 0.04, root.position.z);
   const glm::dvec3 wanted = parted * front + radial * (1.0 - front);
@@ -51,6 +52,17 @@ void clearFace(const Recipe& recipe, const Root& root, glm::dvec3& point, glm::d
   if (inward < 0.0) {
     direction -= away * inward;
   }
+}
+
+// Hair that comes to lie on a shoulder is drawn to the chest or to the back, and in from the arm, as hands and friction
+// would; gravity alone would comb it over the arms.
+glm::dvec3 shoulderPull(const Recipe& recipe, const Root& root, const glm::dvec3& point, double distance) {
+  const double low = smoothStep(0.10, 0.17, -point.y) * (1.0 - smoothStep(0.015, 0.045, distance));
+  const double side = smoothStep(0.06, 0.13, std::fabs(point.x));
+  const double forward = point.z > -0.055 ? 1.0 : -1.0;
+  // Neighbours differ smoothly, so that the hair fans out instead of ending in one rope.
+  const double inward = 0.55 + 0.9 * noise3(recipe.seed, 1000, root.position * 40.0);
+  return glm::dvec3(point.x > 0.0 ? -inward : inward, 0.0, 1.2 * forward) * (recipe.flow.gather * low * side);
 }
 
 }  // namespace
@@ -83,20 +95,25 @@ GrownPath growPath(const Recipe& recipe, const Body& body, const Root& root, dou
   glm::dvec3 outward = normalizeOr(root.normal - direction * glm::dot(root.normal, direction), gravity);
   path.points.push_back(point);
   path.outward.push_back(outward);
+  double distance = 0.0;  // of the last point from the skin
 
   for (size_t i = 1; i <= steps; ++i) {
     const double s = static_cast<double>(i) * step;
     const double faded = 1.0 + (s / recipe.flow.comb) * (s / recipe.flow.comb);
-    const glm::dvec3 pull = gravity + combed * (2.0 / (faded * faded));
+    glm::dvec3 pull = gravity + combed * (2.0 / (faded * faded));
+    if (recipe.drape_on_bust) {
+      pull += shoulderPull(recipe, root, point, distance);
+    }
     direction = normalizeOr(direction + (pull - direction * glm::dot(pull, direction)) * turn, gravity);
     point += direction * step;
     clearFace(recipe, root, point, direction);
 
-    const double kept = clearance * smoothStep(0.0, 0.06, s) + 0.001 * smoothStep(0.0, 0.006, s);
-    const double d = body.distance(point);
-    if (d < kept) {
+    const double kept = clearance * smoothStep(0.0, 0.09, s) + 0.001 * smoothStep(0.0, 0.006, s);
+    distance = body.distance(point);
+    if (distance < kept) {
       const glm::dvec3 normal = body.normal(point);
-      point += normal * (kept - d);
+      point += normal * (kept - distance);
+      distance = kept;
       const double inward = glm::dot(direction, normal);
       if (inward < 0.0) {
         direction = normalizeOr(direction - normal * inward, gravity);

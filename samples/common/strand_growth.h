@@ -1,7 +1,7 @@
 // Grows one strand's centre line: combed, pulled down by gravity, kept outside the body. SPDX-License-Identifier: MIT
 #pragma once
 
-#include "recipe.h"
+#include "groom_recipe.h"
 
 #include <glm/vec3.hpp>
 

@@ -23,7 +23,6 @@ struct HairConstants {
   float fibres_per_metre;
   float cos_r, sin_r;       // of 2 x tilt
   float cos_trt, sin_trt;   // of 3 x tilt
-  float unused;
 };
 
 struct FrameConstants {
@@ -49,8 +48,8 @@ struct FrameConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(HairConstants) == 168);
-static_assert(sizeof(FrameConstants) == 188 + FLK_MAX_HAIRS * sizeof(HairConstants));
+static_assert(sizeof(HairConstants) == 164);
+static_assert(sizeof(FrameConstants) == 176 + FLK_MAX_HAIRS * sizeof(HairConstants));
 }  // namespace forelock::gpu
 #endif
 #endif

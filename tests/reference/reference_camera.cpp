@@ -3,18 +3,25 @@
 
 namespace forelock::reference {
 
+namespace {
+
+// Zero over a strand that has no length or no finite one.
+void setStrandFractions(Strands& strands, size_t begin, size_t end) {
+  double total = 0;
+  for (size_t v = begin; v < end; ++v) {
+    if (v > begin) total += length(strands.positions[v] - strands.positions[v - 1]);
+    strands.fraction[v] = total;
+  }
+  const bool usable = total > 0 && std::isfinite(total);
+  for (size_t v = begin; v < end; ++v) strands.fraction[v] = usable ? strands.fraction[v] / total : 0;
+}
+
+}  // namespace
+
 void setFractions(Strands& strands) {
   strands.fraction.assign(strands.positions.size(), 0.0);
   for (size_t strand = 0; strand < strands.count(); ++strand) {
-    const size_t begin = strands.first_vertex[strand], end = strands.first_vertex[strand + 1];
-    double total = 0;
-    for (size_t v = begin + 1; v < end; ++v) {
-      total += length(strands.positions[v] - strands.positions[v - 1]);
-      strands.fraction[v] = total;
-    }
-    if (total > 0) {
-      for (size_t v = begin; v < end; ++v) strands.fraction[v] /= total;
-    }
+    setStrandFractions(strands, strands.first_vertex[strand], strands.first_vertex[strand + 1]);
   }
 }
 
@@ -24,12 +31,7 @@ void addStrand(Strands& strands, std::span<const Vec3> positions, std::span<cons
   strands.radii.insert(strands.radii.end(), radii.begin(), radii.end());
   strands.first_vertex.push_back(uint32_t(strands.positions.size()));
   strands.fraction.resize(strands.positions.size(), 0.0);
-  double total = 0;
-  for (size_t v = begin + 1; v < strands.positions.size(); ++v) {
-    total += length(strands.positions[v] - strands.positions[v - 1]);
-    strands.fraction[v] = total;
-  }
-  for (size_t v = begin; total > 0 && v < strands.positions.size(); ++v) strands.fraction[v] /= total;
+  setStrandFractions(strands, begin, strands.positions.size());
 }
 
 void addStrand(Strands& strands, std::span<const Vec3> positions, double radius) {

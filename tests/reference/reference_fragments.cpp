@@ -177,24 +177,34 @@ std::vector<double> renderCover(const Scene& scene, const Camera& camera, int sa
   parallelFor(camera.height, threads, [&](int pixel_row) {
     const auto& band = binned.bands[size_t(pixel_row)];
     if (band.empty()) return;
-    std::vector<double> transmittance(size_t(columns) * size_t(samples), 1.0);
+    // Only the pixel columns that a quad of this row may touch.
+    double low = columns, high = 0;
+    for (const uint32_t index : band) {
+      for (const Vec2& c : segments[index].plane.corner) {
+        low = std::min(low, c.x);
+        high = std::max(high, c.x);
+      }
+    }
+    const int first = int(std::clamp(low / samples, 0.0, double(camera.width)));
+    const int last = int(std::clamp(high / samples + 1, double(first), double(camera.width)));
+    const size_t stride = size_t(last - first) * size_t(samples), skip = size_t(first) * size_t(samples);
+    std::vector<double> transmittance(stride * size_t(samples), 1.0);
     const int row_begin = pixel_row * samples;
     for (const uint32_t index : band) {
       const ScreenSegment& s = segments[index];
       const Material& material = scene.hairs[s.hair].material;
-      forEachCell(s.plane.corner, columns, row_begin, row_begin + samples, [&](int column, int row) {
+      forEachCell(s.plane.corner, last * samples, row_begin, row_begin + samples, [&](int column, int row) {
         const Placed at = place(s.plane, column, row);
         if (std::fabs(at.x) > mix(s.plane.h_a, s.plane.h_b, at.v)) return;
         const double fraction = mix(s.fraction_a, s.fraction_b, along(s, at.v, perspective).u);
-        double& t = transmittance[size_t(row - row_begin) * size_t(columns) + size_t(column)];
+        double& t = transmittance[size_t(row - row_begin) * stride + size_t(column) - skip];
         t *= 1 - std::clamp(opacityAt(material, fraction), 0.0, 1.0);
       });
     }
-    for (int row = 0; row < samples; ++row) {
-      for (int column = 0; column < columns; ++column) {
-        cover[size_t(pixel_row) * size_t(camera.width) + size_t(column / samples)] +=
-            (1 - transmittance[size_t(row) * size_t(columns) + size_t(column)]) / (double(samples) * samples);
-      }
+    for (size_t i = 0; i < transmittance.size(); ++i) {
+      const size_t pixel = size_t(first) + i % stride / size_t(samples);
+      cover[size_t(pixel_row) * size_t(camera.width) + pixel] +=
+          (1 - transmittance[i]) / (double(samples) * samples);
     }
   });
   return cover;

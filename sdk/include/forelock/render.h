@@ -76,7 +76,7 @@ typedef struct FlkContextDesc {
   void* message_user;
 } FlkContextDesc;
 
-/* Cost: loads functions, checks the device; no pipeline, no device memory. FLK_ERROR_UNSUPPORTED_DEVICE: the message names
+/* Cost: loads functions, checks the device, makes layouts and 192 KiB of index memory; no pipeline. FLK_ERROR_UNSUPPORTED_DEVICE: the message names
  * what is missing. (Whether a feature was *enabled* cannot be asked of Vulkan: validation layers tell.) */
 FLK_API FlkResult flkContextCreate(const FlkContextDesc* desc, FlkContext* context);
 
@@ -248,18 +248,19 @@ typedef struct FlkFrame {
 
 /* Decides what the frame needs and readies it: memory, pipelines (compiled here, in this call, when first needed; some
  * 10 ms each), descriptors. Uses the fragment count of the last completed frame to size the lists; before there is one,
- * an upper estimate within the budget. The plan lives until frames_in_flight later plans of the view, or the view's end.
+ * an upper estimate within the budget. The plan lives until its frame has completed and frames_in_flight later ones are
+ * planned, or the view's end.
  * Memory that a smaller or larger one replaces is freed when `completed_frame` allows it.
- * FLK_ERROR_UNSUPPORTED_IMAGE: target or depth (the message says which field); FLK_ERROR_TOO_MANY_FRAMES: frame_number -
- * completed_frame exceeds frames_in_flight; FLK_ERROR_OUT_OF_DEVICE_MEMORY: also beyond the budget's least, one node. */
+ * FLK_ERROR_UNSUPPORTED_IMAGE: target or depth (the message says which field); FLK_ERROR_TOO_MANY_FRAMES:
+ * frames_in_flight plans of this view have not completed; FLK_ERROR_OUT_OF_DEVICE_MEMORY. */
 FLK_API FlkResult flkPlanFrame(FlkView view, const FlkFrame* frame, FlkPlan* plan);
 
 /* Records the plan: no allocation, no compilation, no file. Once a plan. Outside rendering, on a queue with graphics and
  * compute; the same VkCommandBuffer may hold other work before and after.
  *   reads: hairs, depth source   writes: colour target, the view's own memory
  *   stages: CLEAR and COPY, VERTEX_SHADER and FRAGMENT_SHADER and fragment tests (capture, shadow), COMPUTE_SHADER (resolve)
- *   clobbers: pipelines, descriptor sets 0, push constants, viewport and scissor, of graphics and compute bind points
- * With nothing to draw it records only the layout change that target.entry and target.exit ask for. */
+ *   clobbers: pipelines, descriptor sets 0 and 1, push constants, index buffer, viewport and scissor, of graphics and compute
+ * With nothing to draw it records only the barrier that target.entry and target.exit ask for. */
 FLK_API void flkCmdRender(VkCommandBuffer cmd, FlkPlan plan);
 
 /* ---- What a plan holds, and what a frame took ----------------------------------------------------------------------- */
@@ -304,7 +305,7 @@ typedef struct FlkStatistics {
 } FlkStatistics;
 
 /* Of the latest frame known to have completed (FlkFrame.completed_frame of the latest plan, or `completed_frame` here if
- * larger). FLK_NOT_READY: none yet, or that frame drew nothing. */
+ * larger). FLK_NOT_READY: none yet. A frame with nothing to draw counts 0 fragments. */
 FLK_API FlkResult flkViewGetStatistics(FlkView view, uint64_t completed_frame, FlkStatistics* statistics);
 
 /* The view's shadow map of light `index` as the latest plan left it, for the host to shade its scene with hair's shadow.

@@ -7,6 +7,7 @@
 #include "asset/sniff.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cinttypes>
 
 using namespace forelock;
@@ -92,7 +93,7 @@ FlkResult flkAssetLoadFile(const char* path, const FlkAssetOptions* options, Flk
     if (!path) return invalid(report, "path is NULL");
     HostMemory memory = settings.memory;
     std::pmr::vector<std::byte> bytes(&memory);
-    const FlkResult result = readFile(path, report, acceptHead, bytes);
+    const FlkResult result = readFile(path, settings.limits.largestFile(), report, acceptHead, bytes);
     return result == FLK_SUCCESS ? readAsset(bytes, settings, made) : result;
   });
 }
@@ -112,6 +113,7 @@ FlkResult flkAssetSaveMemory(FlkAsset asset, uint32_t format, void* bytes, size_
   if (!bytes) return FLK_SUCCESS;
   ByteSink sink(std::span(static_cast<std::byte*>(bytes), *size));
   codec->write(asset->view(), asset->info, report, sink);
+  assert(sink.complete());
   return FLK_SUCCESS;
 }
 
@@ -129,6 +131,7 @@ FlkResult flkAssetSaveFile(FlkAsset asset, uint32_t format, const char* path) {
     std::pmr::vector<std::byte> bytes(static_cast<size_t>(needed), &memory);
     ByteSink sink{bytes};
     codec->write(asset->view(), asset->info, report, sink);
+    assert(sink.complete());
     return writeFile(path, bytes, report, &memory);
   });
   if (result == FLK_ERROR_OUT_OF_HOST_MEMORY)

@@ -83,7 +83,8 @@ int createBeside(const char* path, std::pmr::string& name) {
 
 }  // namespace
 
-FlkResult readFile(const char* path, const Report& report, AcceptHead accept, std::pmr::vector<std::byte>& bytes) {
+FlkResult readFile(const char* path, uint64_t largest, const Report& report, AcceptHead accept,
+                   std::pmr::vector<std::byte>& bytes) {
   // Not blocking: opening a pipe that nobody writes to would wait for ever before it could be refused.
   Descriptor file(::open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file) return report.fail(FLK_ERROR_IO, "FILE_NOT_OPENED", "cannot be opened: %s", Reason(errno).text);
@@ -102,9 +103,14 @@ FlkResult readFile(const char* path, const Report& report, AcceptHead accept, st
   if (got < 0) return report.fail(FLK_ERROR_IO, "FILE_NOT_READ", "cannot be read: %s", Reason(errno).text);
   if (const FlkResult result = accept(std::span(head, static_cast<std::size_t>(got)), report); result != FLK_SUCCESS)
     return result;
+  if (size > largest)
+    return report.fail(FLK_ERROR_LIMIT, "FILE_TOO_LARGE",
+                       "it has %" PRIu64 " bytes, more than the %" PRIu64 " that strands and vertices within the limits can fill: "
+                       "split it or raise the limits",
+                       size, largest);
 
   bytes.resize(size);
-  std::memcpy(bytes.data(), head, head_size);
+  if (head_size != 0) std::memcpy(bytes.data(), head, head_size);
   const ssize_t rest = readUpTo(file.get(), std::span(bytes).subspan(head_size));
   if (rest < 0) return report.fail(FLK_ERROR_IO, "FILE_NOT_READ", "cannot be read: %s", Reason(errno).text);
   const uint64_t total = static_cast<uint64_t>(got) + static_cast<uint64_t>(rest);

@@ -72,11 +72,15 @@ void Findings::note(FindingKind kind, uint32_t strand, uint64_t byte, uint64_t t
 }
 
 void Findings::describe(FindingKind kind, const char* format, ...) noexcept {
-  Slot& slot = slots_[static_cast<std::size_t>(kind)];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(slot.described, sizeof slot.described, format, arguments);
-  va_end(arguments);
+  for (Description& description : descriptions_) {
+    if (description.kind != FindingKind::kinds && description.kind != kind) continue;
+    description.kind = kind;
+    va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(description.text, sizeof description.text, format, arguments);
+    va_end(arguments);
+    return;
+  }
 }
 
 void Findings::finish() {
@@ -94,10 +98,9 @@ void Findings::finish() {
       std::snprintf(where, sizeof where, ", from byte %" PRIu64, slot.byte);
 
     char text[640];
-    if (slot.described[0])
-      std::snprintf(text, sizeof text, "%s", slot.described);
-    else
-      std::snprintf(text, sizeof text, "%s (%" PRIu64 "%s); %s", meaning.what, slot.count, where, meaning.advice);
+    std::snprintf(text, sizeof text, "%s (%" PRIu64 "%s); %s", meaning.what, slot.count, where, meaning.advice);
+    for (const Description& description : descriptions_)
+      if (description.kind == static_cast<FindingKind>(kind)) std::snprintf(text, sizeof text, "%s", description.text);
 
     FlkFinding finding{};
     finding.code = meaning.code;

@@ -50,7 +50,7 @@ public:
   // `strand` is numbered as in the source; no_strand where the finding is about the file. Keeps the first byte told.
   void note(FindingKind kind, uint32_t strand, uint64_t byte, uint64_t times = 1) noexcept;
 
-  // A sentence of its own for this kind in place of the table's, for what only the reader knows.
+  // A sentence of its own for this kind in place of the table's, for one that names values. At most two kinds.
   void describe(FindingKind kind, const char* format, ...) noexcept __attribute__((format(printf, 3, 4)));
 
   uint64_t count(FindingKind kind) const noexcept { return slots_[static_cast<std::size_t>(kind)].count; }
@@ -69,7 +69,10 @@ private:
     uint64_t byte = no_byte;
     uint32_t strands[8] = {};
     uint32_t strands_listed = 0;
-    char described[320] = {};
+  };
+  struct Description {
+    FindingKind kind = FindingKind::kinds;
+    char text[320] = {};
   };
   struct Entry {
     FlkFinding finding;  // without its text, which may move while the list is made
@@ -77,6 +80,7 @@ private:
   };
 
   std::array<Slot, static_cast<std::size_t>(FindingKind::kinds)> slots_;
+  std::array<Description, 2> descriptions_;
   std::pmr::vector<Entry> list_;
 };
 

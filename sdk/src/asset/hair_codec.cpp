@@ -73,12 +73,6 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
                          array.per_strand ? "strands" : "points", array.per_strand ? 4 : 8, bytes.size());
     end += count * array.record;
   }
-  if (strands > limits.strands || point_count > limits.vertices)
-    return report.fail(FLK_ERROR_LIMIT, "HAIR_TOO_LARGE",
-                       "it holds %" PRIu64 " strands (byte 4) and %" PRIu64 " points (byte 8), beyond the limit of %" PRIu32
-                       " and %" PRIu32 ": split it or raise the limit",
-                       strands, point_count, limits.strands, limits.vertices);
-
   uint64_t used_points = 0;
   if (table[segments].present) {
     Cursor counts(bytes, table[segments].offset);
@@ -93,6 +87,12 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
                        "the segments (%s) make %" PRIu64 " points of %" PRIu64 " strands (byte 4), but the header counts %" PRIu64
                        " points (byte 8): the file is damaged, export it again",
                        table[segments].present ? "array at byte 128" : "default at byte 16", used_points, strands, point_count);
+
+  if (strands > limits.strands || point_count > limits.vertices)
+    return report.fail(FLK_ERROR_LIMIT, "HAIR_TOO_LARGE",
+                       "it holds %" PRIu64 " strands (byte 4) and %" PRIu64 " points (byte 8), beyond the limit of %" PRIu32
+                       " and %" PRIu32 ": split it or raise the limit",
+                       strands, point_count, limits.strands, limits.vertices);
 
   if (used_points < point_count)
     findings.note(FindingKind::hair_points_unused, no_strand, table[points].offset + used_points * 12,

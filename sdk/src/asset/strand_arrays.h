@@ -16,6 +16,10 @@ inline constexpr uint32_t limit_vertices = 268'435'456;
 struct Limits {
   uint32_t strands = limit_strands;
   uint32_t vertices = limit_vertices;
+
+  // No file within these limits is longer: both formats hold at most 40 bytes a vertex and 12 a strand. The rest is room
+  // for headers and for bytes at the end that belong to nothing.
+  uint64_t largestFile() const noexcept { return uint64_t{strands} * 12 + uint64_t{vertices} * 40 + (1u << 20); }
 };
 
 struct StrandArrays {

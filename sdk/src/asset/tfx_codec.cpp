@@ -129,8 +129,9 @@ FlkResult measure(const FlkStrands& strands, const FlkAssetInfo& info, const Rep
                        "its strands have from %" PRIu32 " to %" PRIu32 " vertices, but a .tfx file needs as many in each: "
                        "resample the strands or write .hair",
                        info.min_vertices_per_strand, info.max_vertices_per_strand);
-  bytes = header_size + uint64_t{strands.vertex_count} * 16 + (strands.root_uvs ? uint64_t{strands.strand_count} * 8 : 0);
-  if (bytes > UINT32_MAX && strands.root_uvs)
+  const uint64_t uv_offset = header_size + uint64_t{strands.vertex_count} * 16;
+  bytes = uv_offset + (strands.root_uvs ? uint64_t{strands.strand_count} * 8 : 0);
+  if (strands.root_uvs && uv_offset > UINT32_MAX)
     return report.fail(FLK_ERROR_LIMIT, "WRITE_TFX_TOO_LARGE",
                        "its root UVs would start beyond the 4 GiB that a .tfx offset can name: split the asset");
   return FLK_SUCCESS;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "recipe.h"
+#include "groom_recipe.h"
 
 #include "key_reader.h"
 
@@ -55,6 +55,7 @@ void readFlow(KeyReader reader, Recipe& recipe) {
   reader.number("comb", recipe.flow.comb, 0.001, 10.0, "m");
   reader.number("back", recipe.flow.back, -2.0, 2.0, "");
   reader.number("face_gap", recipe.flow.face_gap, 0.0, 0.2, "m");
+  reader.number("gather", recipe.flow.gather, 0.0, 4.0, "");
   reader.number("clearance_low", recipe.flow.clearance_low, 0.0, 0.1, "m");
   reader.number("clearance_high", recipe.flow.clearance_high, 0.0, 0.1, "m");
   reader.number("clearance_spread", recipe.flow.clearance_spread, 0.0, 1.0, "");

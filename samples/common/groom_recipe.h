@@ -83,6 +83,7 @@ struct Recipe {
     double comb = 0.05;        // (m) over which the combed direction is kept
     double back = 0.5;         // share of combing to the back over combing sideways
     double face_gap = 0.0;     // (m) half width of the part of the face that is kept free
+    double gather = 0.0;    // how strongly hair is drawn off the shoulders to chest and back
     double clearance_low = 0.002;   // (m) over the skin, for the lowest roots
     double clearance_high = 0.014;  // (m) for the highest roots
     double clearance_spread = 0.5;  // share of random variation

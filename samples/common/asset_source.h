@@ -1,0 +1,68 @@
+// What a person may write where a program wants an asset: a strand file, or groom:NAME. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "groom_recipe.h"
+
+#include <forelock/asset.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace forelock::samples {
+
+// One sentence for a person, beginning with the asset's name: "FILE: what is wrong (where), what to do".
+struct AssetError : std::runtime_error {
+  AssetError(FlkResult why, const std::string& text) : std::runtime_error(text), result(why) {}
+  FlkResult result;
+};
+
+struct AssetMessage {
+  uint32_t severity;
+  std::string id;
+  std::string text;
+};
+
+struct AssetDeleter {
+  void operator()(FlkAsset asset) const { flkAssetDestroy(asset); }
+};
+using AssetHandle = std::unique_ptr<FlkAsset_T, AssetDeleter>;
+
+struct OpenedAsset {
+  // What the library said while opening, and says later about this asset. Not moved while the asset lives: the asset
+  // holds a pointer to it. Declared first, so that it is destroyed last.
+  std::unique_ptr<std::vector<AssetMessage>> messages;
+  AssetHandle asset;
+  std::string label;             // as the user wrote it
+  std::optional<Recipe> recipe;  // of a groom: its cameras and description
+};
+
+// Called from any thread with work done and work to do.
+using ProgressFunction = std::function<void(uint64_t done, uint64_t total)>;
+
+// Opens a strand file, a recipe file (*.json) or groom:NAME. Throws AssetError.
+OpenedAsset openAsset(const std::string& source, const ProgressFunction& progress = {});
+
+// Grows a recipe into an asset. Throws AssetError.
+OpenedAsset growAsset(const Recipe& recipe, const std::string& label, const ProgressFunction& progress = {});
+
+// The recipe of groom:NAME, a recipe's path, or a bare NAME of a groom. Throws AssetError.
+Recipe openRecipe(const std::string& source);
+
+// Folders in which groom:NAME is looked for, best first: the environment variable FORELOCK_HAIRASSETS, `hairassets` of
+// the source tree this was built from, `hairassets` beside the executable and one folder above it.
+std::vector<std::string> groomFolders();
+
+// Names of all grooms that are found, sorted.
+std::vector<std::string> groomNames();
+
+// Format of a path by its extension; FLK_FORMAT_UNKNOWN where no writer exists for it.
+uint32_t formatOfPath(const std::string& path);
+
+// Saves, and gives what the library had to say, above all what the format cannot hold. Throws AssetError.
+std::vector<AssetMessage> saveAsset(const OpenedAsset& opened, const std::string& path);
+
+}  // namespace forelock::samples

@@ -1,0 +1,83 @@
+// `forelock convert`: any readable strand format to any writable one. SPDX-License-Identifier: MIT
+#include "commands.h"
+#include "progress.h"
+
+#include <cstdio>
+#include <filesystem>
+
+namespace forelock::samples {
+
+namespace {
+
+struct ConvertArguments {
+  std::string in, out;
+  bool strict = false;
+};
+
+constexpr const char* kExamples =
+    "The format is told from IN's bytes and from OUT's extension. What the target cannot hold is left out and named.\n\n"
+    "Examples:\n"
+    "  forelock convert pony.tfx pony.hair\n"
+    "  forelock convert groom:long-wavy hair.tfx\n"
+    "  forelock convert --strict pony.hair pony.tfx     fail, and write nothing, if anything is lost\n";
+
+bool saysDropped(const AssetMessage& message) { return message.id.rfind("WRITE_DROPS_", 0) == 0; }
+
+// Asks the library what it would leave out, without writing a file.
+std::vector<AssetMessage> rehearse(const OpenedAsset& opened, uint32_t format) {
+  const size_t before = opened.messages->size();
+  size_t size = 0;
+  if (flkAssetSaveMemory(opened.asset.get(), format, nullptr, &size) == FLK_SUCCESS) {
+    std::vector<unsigned char> bytes(size);
+    flkAssetSaveMemory(opened.asset.get(), format, bytes.data(), &size);
+  }
+  return {opened.messages->begin() + static_cast<std::ptrdiff_t>(before), opened.messages->end()};
+}
+
+int runConvert(const ConvertArguments& arguments) {
+  const uint32_t format = formatOfPath(arguments.out);
+  if (format == FLK_FORMAT_UNKNOWN) {
+    throw UsageError(arguments.out + ": no writer for this extension, use .tfx or .hair");
+  }
+  OpenedAsset opened;
+  {
+    Progress progress("opening " + arguments.in);
+    opened = openAsset(arguments.in, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+  }
+  printMessages(*opened.messages, false);
+  if (arguments.strict) {
+    bool lost = false;
+    for (const AssetMessage& message : rehearse(opened, format)) {
+      if (saysDropped(message)) {
+        std::fprintf(stderr, "forelock: %s\n", message.text.c_str());
+        lost = true;
+      }
+    }
+    if (lost) {
+      std::fprintf(stderr, "forelock: %s: not written, because --strict allows no loss\n", arguments.out.c_str());
+      return kFailed;
+    }
+  }
+  printMessages(saveAsset(opened, arguments.out), true);
+  FlkAssetInfo info = {};
+  flkAssetGetInfo(opened.asset.get(), &info);
+  std::error_code error;
+  const uintmax_t bytes = std::filesystem::file_size(arguments.out, error);
+  std::printf("%s: %s strands, %s vertices, %s\n", arguments.out.c_str(), groupedDigits(info.strand_count).c_str(),
+              groupedDigits(info.vertex_count).c_str(), readableBytes(error ? 0 : bytes).c_str());
+  return kDone;
+}
+
+}  // namespace
+
+void addConvertCommand(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand("convert", "Write an asset in another strand format.");
+  auto arguments = std::make_shared<ConvertArguments>();
+  command->add_option("IN", arguments->in, "A strand file, a recipe or groom:NAME")->required();
+  command->add_option("OUT", arguments->out, "The file to write: .hair or .tfx")->required();
+  command->add_flag("--strict", arguments->strict, "Fail instead of leaving out what the target cannot hold");
+  command->footer(kExamples);
+  command->callback([arguments, &exit_code] { exit_code = runConvert(*arguments); });
+}
+
+}  // namespace forelock::samples

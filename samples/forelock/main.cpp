@@ -1,0 +1,63 @@
+// The `forelock` command. SPDX-License-Identifier: MIT
+#include "commands.h"
+
+#include <cstdio>
+#include <exception>
+
+namespace {
+
+constexpr const char* kDescription =
+    "Forelock looks at, checks, converts and makes strand hair.\n\n"
+    "An ASSET is a strand file (.tfx, .hair), a groom recipe (.json) or groom:NAME for a recipe that comes with\n"
+    "Forelock; `forelock groom --list` names them.";
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  forelock inspect pony.tfx                 what is in a file, and what is wrong with it\n"
+    "  forelock convert pony.tfx pony.hair       another format; says what is lost\n"
+    "  forelock groom long-wavy hair.hair        write a procedural groom to a strand file\n\n"
+    "Exit status: 0 done; 1 the asset or a check failed; 2 wrong usage; 3 no usable device.\n"
+    "Each subcommand has its own --help.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace forelock::samples;
+  CLI::App program(kDescription, "forelock");
+  program.footer(kExamples);
+  program.require_subcommand(1);
+  program.set_version_flag("--version", [] {
+    const uint32_t version = flkGetVersion();
+    return "forelock " + std::to_string(version >> 22) + "." + std::to_string((version >> 12) & 0x3ff) + "." +
+           std::to_string(version & 0xfff);
+  });
+  int exit_code = kDone;
+  addInspectCommand(program, exit_code);
+  addConvertCommand(program, exit_code);
+  addGroomCommand(program, exit_code);
+
+  if (argc < 2) {
+    std::fputs(program.help().c_str(), stderr);
+    return kUsage;
+  }
+  try {
+    program.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {  // --help, --version
+      return program.exit(error);
+    }
+    std::string command = "forelock";
+    for (const CLI::App* chosen : program.get_subcommands()) {
+      command += " " + chosen->get_name();
+    }
+    std::fprintf(stderr, "forelock: %s; `%s --help` explains\n", error.what(), command.c_str());
+    return kUsage;
+  } catch (const UsageError& error) {
+    std::fprintf(stderr, "forelock: %s\n", error.what());
+    return kUsage;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "forelock: %s\n", error.what());
+    return kFailed;
+  }
+}

@@ -1,0 +1,53 @@
+// What subcommands print alike. SPDX-License-Identifier: MIT
+#include "commands.h"
+
+#include <cstdio>
+
+namespace forelock::samples {
+
+void printMessages(const std::vector<AssetMessage>& messages, bool with_info) {
+  for (const AssetMessage& message : messages) {
+    if (with_info || message.severity != FLK_SEVERITY_INFO) {
+      std::fprintf(stderr, "forelock: %s\n", message.text.c_str());
+    }
+  }
+}
+
+std::string groupedDigits(uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (size_t end = digits.size(); end > 3; end -= 3) {
+    digits.insert(end - 3, ",");
+  }
+  return digits;
+}
+
+std::string readableBytes(uint64_t bytes) {
+  constexpr const char* units[] = {"bytes", "KiB", "MiB", "GiB"};
+  double value = static_cast<double>(bytes);
+  int unit = 0;
+  while (value >= 1024.0 && unit < 3) {
+    value /= 1024.0;
+    ++unit;
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.1f %s", value, units[unit]);
+  return text;
+}
+
+const char* formatName(uint32_t format) {
+  switch (format) {
+    case FLK_FORMAT_TFX: return "tfx";
+    case FLK_FORMAT_HAIR: return "hair";
+    default: return "arrays";
+  }
+}
+
+const char* severityName(uint32_t severity) {
+  switch (severity) {
+    case FLK_SEVERITY_ERROR: return "error";
+    case FLK_SEVERITY_WARNING: return "warning";
+    default: return "info";
+  }
+}
+
+}  // namespace forelock::samples

@@ -1,0 +1,353 @@
+// The C boundary of render.h: check arguments, translate, call.
+#include "api/boundary.h"
+#include "gpu/view.h"
+
+#include "forelock/render.h"
+
+#include <cmath>
+#include <iterator>
+
+namespace {
+
+using forelock::Context;
+using forelock::Frame;
+using forelock::guarded;
+using forelock::Hair;
+using forelock::HostMemory;
+using forelock::Messages;
+using forelock::View;
+
+// A handle is the object's address.
+Context* toContext(FlkContext handle) { return reinterpret_cast<Context*>(handle); }
+Hair* toHair(FlkHair handle) { return reinterpret_cast<Hair*>(handle); }
+View* toView(FlkView handle) { return reinterpret_cast<View*>(handle); }
+Frame* toFrame(FlkPlan handle) { return reinterpret_cast<Frame*>(handle); }
+
+FlkResult invalid(const Messages& messages, const char* what) {
+  messages.say(FLK_SEVERITY_ERROR, "INVALID_ARGUMENT", "%s", what);
+  return FLK_ERROR_INVALID_ARGUMENT;
+}
+
+bool within(float value, float low, float high) { return value >= low && value <= high; }  // false for NaN
+
+const char* materialFault(const FlkMaterial& m) {
+  for (float c : m.color)
+    if (!within(c, 0, 1)) return "material.color must lie in [0, 1]";
+  if (!within(m.opacity_root, 0, 1) || !within(m.opacity_tip, 0, 1)) return "material.opacity_root and opacity_tip must lie in [0, 1]";
+  if (!within(m.width_scale, 0, 1e6f)) return "material.width_scale must lie in [0, 1e6]";
+  if (!within(m.diffuse, 0, 1e3f) || !within(m.specular_r, 0, 1e3f) || !within(m.specular_trt, 0, 1e3f))
+    return "material.diffuse, specular_r and specular_trt must lie in [0, 1e3]";
+  if (!within(m.exponent_r, 0, 1e6f) || !within(m.exponent_trt, 0, 1e6f)) return "material.exponent_r and exponent_trt must lie in [0, 1e6]";
+  if (!within(m.cuticle_tilt, -0.785399f, 0.785399f)) return "material.cuticle_tilt must lie in [-pi/4, pi/4]";
+  if (!within(m.shadow_opacity, 0, 1)) return "material.shadow_opacity must lie in [0, 1]";
+  if (!within(m.fibre_spacing, 1e-30f, 1e30f)) return "material.fibre_spacing must be positive";
+  return nullptr;
+}
+
+const char* lightFault(const FlkLight& light) {
+  double square = 0;
+  for (float c : light.direction) square += double(c) * c;
+  if (!std::isfinite(square) || square <= 0) return "light.direction must be finite and not zero";
+  for (float c : light.radiance)
+    if (!within(c, 0, 1e30f)) return "light.radiance must be finite and not negative";
+  if (light.casts_shadow > 1) return "light.casts_shadow must be 0 or 1";
+  if (light.shadow_size && (light.shadow_size < 64 || light.shadow_size > 8192)) return "light.shadow_size must lie in [64, 8192]";
+  return nullptr;
+}
+
+// What cannot be drawn to or read from, as a sentence.
+const char* targetFault(const FlkColorTarget& target, bool planning) {
+  if (target.format != VK_FORMAT_R16G16B16A16_SFLOAT) return "target.format must be VK_FORMAT_R16G16B16A16_SFLOAT";
+  if (target.samples != VK_SAMPLE_COUNT_1_BIT) return "target.samples must be VK_SAMPLE_COUNT_1_BIT: resolve it before hair is drawn";
+  if (!planning && (!target.image || !target.view)) return "target.image and target.view must be set";
+  if (!planning && target.exit.layout == VK_IMAGE_LAYOUT_UNDEFINED) return "target.exit.layout must not be VK_IMAGE_LAYOUT_UNDEFINED";
+  return nullptr;
+}
+
+const char* depthFault(const FlkDepthSource& depth, bool planning) {
+  if (!depth.image && !depth.view) return nullptr;
+  if (!planning && (!depth.image || !depth.view)) return "depth.image and depth.view must be set together";
+  switch (depth.format) {
+    case VK_FORMAT_D16_UNORM:
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+    case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_D16_UNORM_S8_UINT:
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+    case VK_FORMAT_D32_SFLOAT_S8_UINT: break;
+    default: return "depth.format is no depth format";
+  }
+  if (depth.samples != VK_SAMPLE_COUNT_1_BIT) return "depth.samples must be VK_SAMPLE_COUNT_1_BIT: resolve it before hair is drawn";
+  switch (depth.layout) {
+    case VK_IMAGE_LAYOUT_GENERAL:
+    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL: break;
+    default: return "depth.layout must be one in which depth can be sampled";
+  }
+  return nullptr;
+}
+
+const char* frameFault(const FlkFrame& frame) {
+  if (frame.type != FLK_TYPE_FRAME || frame.next) return "frame.type must be FLK_TYPE_FRAME and frame.next NULL";
+  if (frame.target.width < 1 || frame.target.width > 16384 || frame.target.height < 1 || frame.target.height > 16384)
+    return "target.width and target.height must lie in [1, 16384]";
+  if (frame.reversed_depth > 1) return "frame.reversed_depth must be 0 or 1";
+  if (frame.hair_count > forelock::kMaxHairs) return "frame.hair_count must be at most 63: draw the rest in another view";
+  if (frame.hair_count && !frame.hairs) return "frame.hairs is NULL";
+  if (frame.light_count > 1) return "frame.light_count must be 0 or 1";
+  if (frame.light_count && !frame.lights) return "frame.lights is NULL";
+  for (uint32_t i = 0; i < frame.light_count; ++i)
+    if (const char* fault = lightFault(frame.lights[i])) return fault;
+  for (float c : frame.ambient)
+    if (!within(c, 0, 1e30f)) return "frame.ambient must be finite and not negative";
+  if (!within(frame.exposure, 0, 1e30f) || (frame.exposure != 0 && frame.exposure < 1e-30f)) return "frame.exposure must be positive, or 0 for 1";
+  if (frame.method >= std::size(forelock::kMethods)) return "frame.method is none of FLK_METHOD_...";
+  if (frame.payload > FLK_PAYLOAD_PAPER) return "frame.payload is none of FLK_PAYLOAD_...";
+  if (frame.display > FLK_DISPLAY_LAYERS) return "frame.display is none of FLK_DISPLAY_...";
+  if (frame.k != FLK_K_NONE && frame.k > forelock::kMaxSort) return "frame.k must be at most 32, or FLK_K_NONE";
+  if (frame.k_sort > forelock::kMaxSort) return "frame.k_sort must be at most 32";
+  if (frame.k_sort && frame.k != FLK_K_NONE && frame.k_sort < (frame.k ? frame.k : 8)) return "frame.k_sort must not be less than k";
+  return nullptr;
+}
+
+}  // namespace
+
+void flkGetRequirements(FlkRequirements* requirements) {
+  if (!requirements) return;
+  *requirements = {};
+  requirements->api_version = VK_API_VERSION_1_3;
+  requirements->queue_flags = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  requirements->features.fragmentStoresAndAtomics = VK_TRUE;
+  requirements->features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  requirements->features12.scalarBlockLayout = VK_TRUE;
+  requirements->features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  requirements->features13.dynamicRendering = VK_TRUE;
+  requirements->features13.synchronization2 = VK_TRUE;
+}
+
+FlkResult flkContextCreate(const FlkContextDesc* desc, FlkContext* context) {
+  if (!context) return FLK_ERROR_INVALID_ARGUMENT;
+  *context = nullptr;
+  if (!desc || desc->type != FLK_TYPE_CONTEXT || desc->next) return FLK_ERROR_INVALID_ARGUMENT;
+  const Messages messages(desc->message, desc->message_user);
+  if (!HostMemory::valid(desc->allocator)) return invalid(messages, "allocator needs both functions or neither");
+  if (desc->device_allocator && (!desc->device_allocator->allocate || !desc->device_allocator->free))
+    return invalid(messages, "device_allocator needs both functions");
+  const int given = (desc->instance != nullptr) + (desc->physical_device != nullptr) + (desc->device != nullptr) + (desc->get_instance_proc_addr != nullptr);
+  if (given != 0 && given != 4)
+    return invalid(messages, "instance, physical_device, device and get_instance_proc_addr go together: all, or none for a planning context");
+  return guarded([&] {
+    HostMemory memory(desc->allocator);
+    Context* object = memory.create<Context>(desc->allocator);
+    FlkResult result = FLK_ERROR_OUT_OF_HOST_MEMORY;
+    try {
+      result = object->init(*desc);
+    } catch (...) {
+      object->destroy();
+    }
+    if (result != FLK_SUCCESS) return memory.destroy(object), result;
+    *context = reinterpret_cast<FlkContext>(object);
+    return result;
+  });
+}
+
+void flkContextDestroy(FlkContext context) {
+  if (!context) return;
+  Context* object = toContext(context);
+  object->destroy();
+  HostMemory memory = object->memory();
+  memory.destroy(object);
+}
+
+void flkMaterialDefault(FlkMaterial* material) {
+  if (!material) return;
+  *material = {{0.22f, 0.13f, 0.07f}, 0.63f, 0.63f, 1.0f, 0.22f, 0.012f, 14.4f, 0.136f, 11.8f, 0.174532925f, 0.35f, 1.5e-3f};
+}
+
+FlkResult flkHairCreate(FlkContext context, const FlkHairDesc* desc, FlkHair* hair) {
+  if (!hair) return FLK_ERROR_INVALID_ARGUMENT;
+  *hair = nullptr;
+  if (!context) return FLK_ERROR_INVALID_ARGUMENT;
+  Context& owner = *toContext(context);
+  const Messages& messages = owner.device.messages;
+  if (!desc || desc->type != FLK_TYPE_HAIR || desc->next) return invalid(messages, "hair desc: type must be FLK_TYPE_HAIR and next NULL");
+  if (!desc->asset) return invalid(messages, "hair desc: asset is NULL");
+  if (desc->flags & ~uint32_t(FLK_HAIR_KEEP_ORDER)) return invalid(messages, "hair desc: unknown flags");
+  if (desc->material)
+    if (const char* fault = materialFault(*desc->material)) return invalid(messages, fault);
+  FlkStrands strands{};
+  const FlkResult given = flkAssetGetStrands(desc->asset, &strands);
+  if (given != FLK_SUCCESS) return given;
+  return guarded([&] {
+    Hair* object = owner.memory().create<Hair>(owner);
+    FlkResult result = FLK_ERROR_OUT_OF_HOST_MEMORY;
+    try {
+      result = object->init(*desc, strands);
+    } catch (...) {
+    }
+    if (result != FLK_SUCCESS) return owner.memory().destroy(object), result;
+    *hair = reinterpret_cast<FlkHair>(object);
+    return result;
+  });
+}
+
+FlkResult flkCmdUpload(VkCommandBuffer cmd, FlkHair hair) {
+  if (!cmd || !hair) return FLK_ERROR_INVALID_ARGUMENT;
+  const Hair& object = *toHair(hair);
+  const forelock::Device& device = object.context().device;
+  if (device.planning()) return invalid(device.messages, "flkCmdUpload needs a context with a device");
+  if (!object.bytesStaging()) return invalid(device.messages, "flkCmdUpload: the staging memory of this hair has been released");
+  object.upload(cmd);
+  return FLK_SUCCESS;
+}
+
+void flkHairReleaseStaging(FlkHair hair) {
+  if (hair) toHair(hair)->releaseStaging();
+}
+
+FlkResult flkHairSetTransform(FlkHair hair, const double world_from_hair[16]) {
+  if (!hair || !world_from_hair) return FLK_ERROR_INVALID_ARGUMENT;
+  Hair& object = *toHair(hair);
+  const Messages& messages = object.context().device.messages;
+  forelock::Mat4 m;
+  for (int i = 0; i < 16; ++i) {
+    if (!std::isfinite(world_from_hair[i])) return invalid(messages, "world_from_hair holds a value that is not finite");
+    m[i] = world_from_hair[i];
+  }
+  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) return invalid(messages, "the last row of world_from_hair must be 0 0 0 1");
+  const double volume = std::abs(forelock::determinant3(m));
+  if (!(volume > 0) || !std::isfinite(volume)) return invalid(messages, "world_from_hair flattens the hair");
+  object.world_from_hair = m;
+  return FLK_SUCCESS;
+}
+
+FlkResult flkHairSetMaterial(FlkHair hair, const FlkMaterial* material) {
+  if (!hair || !material) return FLK_ERROR_INVALID_ARGUMENT;
+  if (const char* fault = materialFault(*material)) return invalid(toHair(hair)->context().device.messages, fault);
+  toHair(hair)->material = *material;
+  return FLK_SUCCESS;
+}
+
+FlkResult flkHairGetInfo(FlkHair hair, FlkHairInfo* info) {
+  if (!hair || !info) return FLK_ERROR_INVALID_ARGUMENT;
+  const Hair& object = *toHair(hair);
+  *info = {object.strand_count, object.vertex_count, object.segment_count, object.bytesDevice(), object.bytesStaging()};
+  return FLK_SUCCESS;
+}
+
+void flkHairDestroy(FlkHair hair) {
+  if (!hair) return;
+  Hair* object = toHair(hair);
+  object->destroy();
+  object->context().memory().destroy(object);
+}
+
+FlkResult flkViewCreate(FlkContext context, const FlkViewDesc* desc, FlkView* view) {
+  if (!view) return FLK_ERROR_INVALID_ARGUMENT;
+  *view = nullptr;
+  if (!context) return FLK_ERROR_INVALID_ARGUMENT;
+  Context& owner = *toContext(context);
+  const Messages& messages = owner.device.messages;
+  if (!desc || desc->type != FLK_TYPE_VIEW || desc->next) return invalid(messages, "view desc: type must be FLK_TYPE_VIEW and next NULL");
+  if (desc->frames_in_flight > forelock::kMaxFramesInFlight) return invalid(messages, "view desc: frames_in_flight must be at most 8");
+  return guarded([&] {
+    View* object = owner.memory().create<View>(owner);
+    FlkResult result = FLK_ERROR_OUT_OF_HOST_MEMORY;
+    try {
+      result = object->init(*desc);
+    } catch (...) {
+    }
+    if (result != FLK_SUCCESS) return owner.memory().destroy(object), result;
+    *view = reinterpret_cast<FlkView>(object);
+    return result;
+  });
+}
+
+void flkViewDestroy(FlkView view) {
+  if (!view) return;
+  View* object = toView(view);
+  object->destroy();
+  object->context().memory().destroy(object);
+}
+
+FlkResult flkPlanFrame(FlkView view, const FlkFrame* frame, FlkPlan* plan) {
+  if (!plan) return FLK_ERROR_INVALID_ARGUMENT;
+  *plan = nullptr;
+  if (!view || !frame) return FLK_ERROR_INVALID_ARGUMENT;
+  View& object = *toView(view);
+  const forelock::Device& device = object.context().device;
+  if (const char* fault = frameFault(*frame)) return invalid(device.messages, fault);
+  const char* image_fault = targetFault(frame->target, device.planning());
+  if (!image_fault) image_fault = depthFault(frame->depth, device.planning());
+  if (image_fault) {
+    device.messages.say(FLK_SEVERITY_ERROR, "UNSUPPORTED_IMAGE", "%s", image_fault);
+    return FLK_ERROR_UNSUPPORTED_IMAGE;
+  }
+  Hair* hairs[forelock::kMaxHairs];
+  for (uint32_t i = 0; i < frame->hair_count; ++i) {
+    hairs[i] = toHair(frame->hairs[i]);
+    if (!hairs[i]) return invalid(device.messages, "frame.hairs holds a NULL");
+    if (&hairs[i]->context() != &object.context()) return invalid(device.messages, "frame.hairs holds a hair of another context");
+    for (uint32_t j = 0; j < i; ++j)
+      if (hairs[j] == hairs[i]) return invalid(device.messages, "frame.hairs holds a hair twice");
+  }
+  return guarded([&] {
+    Frame* planned = nullptr;
+    const FlkResult result = object.plan(*frame, hairs, planned);
+    *plan = reinterpret_cast<FlkPlan>(planned);
+    return result;
+  });
+}
+
+void flkCmdRender(VkCommandBuffer cmd, FlkPlan plan) {
+  if (!cmd || !plan || toFrame(plan)->view->context().device.planning()) return;
+  toFrame(plan)->view->record(cmd, *toFrame(plan));
+}
+
+FlkResult flkPlanGetInfo(FlkPlan plan, FlkPlanInfo* info) {
+  if (!plan || !info) return FLK_ERROR_INVALID_ARGUMENT;
+  const Frame& frame = *toFrame(plan);
+  const forelock::FramePlan& p = frame.plan;
+  *info = {};
+  info->pass_count = uint32_t(p.passes.count);
+  info->resource_count = uint32_t(p.resources.count);
+  info->omission_count = uint32_t(p.omissions.count);
+  for (uint32_t i = 0; i < frame.hair_count; ++i) info->bytes_persistent += frame.hairs[i]->bytesDevice();
+  info->bytes_transient = p.transientBytes();
+  info->rect[0] = p.rect.x, info->rect[1] = p.rect.y, info->rect[2] = p.rect.width, info->rect[3] = p.rect.height;
+  info->segment_count = p.segments;
+  info->node_capacity = p.node_capacity;
+  if (p.shadow_size) info->full_shade_taps = forelock::kFullTaps, info->low_shade_taps = p.method->low_taps;
+  return FLK_SUCCESS;
+}
+
+FlkResult flkPlanGetPass(FlkPlan plan, uint32_t index, FlkPassInfo* info) {
+  if (!plan || !info || index >= toFrame(plan)->plan.passes.count) return FLK_ERROR_INVALID_ARGUMENT;
+  const forelock::Pass& pass = toFrame(plan)->plan.passes.items[index];
+  static_assert(int(forelock::PassId::clear) == FLK_STAGE_CLEAR && int(forelock::PassId::resolve) == FLK_STAGE_RESOLVE);
+  *info = {pass.name, uint32_t(pass.id), {pass.groups[0], pass.groups[1], pass.groups[2]}, pass.indices};
+  return FLK_SUCCESS;
+}
+
+FlkResult flkPlanGetResource(FlkPlan plan, uint32_t index, FlkResourceInfo* info) {
+  if (!plan || !info || index >= toFrame(plan)->plan.resources.count) return FLK_ERROR_INVALID_ARGUMENT;
+  const forelock::Resource& resource = toFrame(plan)->plan.resources.items[index];
+  *info = {resource.name, resource.bytes, resource.transient ? 1u : 0u, resource.why};
+  return FLK_SUCCESS;
+}
+
+const char* flkPlanGetOmission(FlkPlan plan, uint32_t index) {
+  return plan && index < toFrame(plan)->plan.omissions.count ? toFrame(plan)->plan.omissions.items[index] : nullptr;
+}
+
+FlkResult flkViewGetStatistics(FlkView view, uint64_t completed_frame, FlkStatistics* statistics) {
+  if (!view || !statistics) return FLK_ERROR_INVALID_ARGUMENT;
+  return toView(view)->statistics(completed_frame, *statistics);
+}
+
+FlkResult flkViewGetShadowMap(FlkView view, uint32_t index, FlkShadowMap* map) {
+  if (!view || !map || index > 0) return FLK_ERROR_INVALID_ARGUMENT;
+  return toView(view)->shadowMap(*map);
+}

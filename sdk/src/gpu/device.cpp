@@ -1,0 +1,207 @@
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <cinttypes>
+
+namespace forelock {
+namespace {
+
+// vkAllocateMemory by ourselves, where the host does not want to.
+uint32_t findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t bits, VkMemoryPropertyFlags flags) {
+  for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+    if ((bits >> i & 1) && (memory.memoryTypes[i].propertyFlags & flags) == flags) return i;
+  return UINT32_MAX;
+}
+
+}  // namespace
+
+FlkResult toResult(VkResult result) {
+  switch (result) {
+    case VK_SUCCESS: return FLK_SUCCESS;
+    case VK_ERROR_OUT_OF_HOST_MEMORY: return FLK_ERROR_OUT_OF_HOST_MEMORY;
+    case VK_ERROR_DEVICE_LOST: return FLK_ERROR_DEVICE_LOST;
+    default: return FLK_ERROR_OUT_OF_DEVICE_MEMORY;
+  }
+}
+
+FlkResult Device::init(const FlkContextDesc& desc, const Messages& context_messages) {
+  messages = context_messages;
+  if (desc.device == VK_NULL_HANDLE) {
+    // What a plan may assume of a device that is not there yet: the least that Vulkan promises, but for storage ranges, where
+    // 128 MiB is the least seen in practice.
+    limits.maxStorageBufferRange = 1u << 27;
+    return FLK_SUCCESS;
+  }
+
+  auto missing = [&](const char* name) {
+    messages.say(FLK_SEVERITY_ERROR, "DEVICE_FUNCTION_MISSING",
+                 "get_instance_proc_addr gives no %s: instance and device must be of Vulkan 1.3", name);
+    return FLK_ERROR_UNSUPPORTED_DEVICE;
+  };
+#define FLK_LOAD(name)                                                                              \
+  fn.name = reinterpret_cast<PFN_##name>(desc.get_instance_proc_addr(desc.instance, #name));        \
+  if (!fn.name) return missing(#name);
+  FLK_INSTANCE_FUNCTIONS(FLK_LOAD)
+#undef FLK_LOAD
+
+  VkPhysicalDeviceProperties properties{};
+  fn.vkGetPhysicalDeviceProperties(desc.physical_device, &properties);
+  if (properties.apiVersion < VK_API_VERSION_1_3) {
+    messages.say(FLK_SEVERITY_ERROR, "DEVICE_VERSION", "device %.200s offers Vulkan %u.%u, 1.3 is needed", properties.deviceName,
+                 VK_API_VERSION_MAJOR(properties.apiVersion), VK_API_VERSION_MINOR(properties.apiVersion));
+    return FLK_ERROR_UNSUPPORTED_DEVICE;
+  }
+  VkPhysicalDeviceVulkan13Features features13{};
+  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  VkPhysicalDeviceVulkan12Features features12{};
+  features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  features12.pNext = &features13;
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  features.pNext = &features12;
+  fn.vkGetPhysicalDeviceFeatures2(desc.physical_device, &features);
+  const struct { VkBool32 has; const char* name; } needs[] = {
+      {features.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics"},
+      {features12.scalarBlockLayout, "scalarBlockLayout"},
+      {features13.dynamicRendering, "dynamicRendering"},
+      {features13.synchronization2, "synchronization2"},
+  };
+  for (const auto& need : needs)
+    if (!need.has) {
+      messages.say(FLK_SEVERITY_ERROR, "DEVICE_FEATURE_MISSING", "device %.200s lacks the feature %s", properties.deviceName, need.name);
+      return FLK_ERROR_UNSUPPORTED_DEVICE;
+    }
+
+  uint32_t family_count = 0;
+  fn.vkGetPhysicalDeviceQueueFamilyProperties(desc.physical_device, &family_count, nullptr);
+  constexpr uint32_t kMaxFamilies = 32;
+  VkQueueFamilyProperties families[kMaxFamilies]{};
+  family_count = std::min(family_count, kMaxFamilies);
+  fn.vkGetPhysicalDeviceQueueFamilyProperties(desc.physical_device, &family_count, families);
+  constexpr VkQueueFlags kQueue = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  if (desc.queue_family >= family_count || (families[desc.queue_family].queueFlags & kQueue) != kQueue) {
+    messages.say(FLK_SEVERITY_ERROR, "DEVICE_QUEUE", "queue family %u of device %.200s does not offer both graphics and compute",
+                 desc.queue_family, properties.deviceName);
+    return FLK_ERROR_UNSUPPORTED_DEVICE;
+  }
+  timestamp_bits = families[desc.queue_family].timestampValidBits;
+
+#define FLK_LOAD(name)                                                                  \
+  fn.name = reinterpret_cast<PFN_##name>(fn.vkGetDeviceProcAddr(desc.device, #name));    \
+  if (!fn.name) return missing(#name);
+  FLK_DEVICE_FUNCTIONS(FLK_LOAD)
+#undef FLK_LOAD
+
+  fn.vkGetPhysicalDeviceMemoryProperties(desc.physical_device, &memory_);
+  limits = properties.limits;
+  pipeline_cache = desc.pipeline_cache;
+  if (desc.device_allocator) allocator_ = *desc.device_allocator, host_allocates_ = true;
+  device = desc.device;
+  return FLK_SUCCESS;
+}
+
+FlkResult Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
+                           const char* name, FlkDeviceAllocation& allocation) {
+  allocation = {};
+  if (host_allocates_) {
+    const VkResult result = allocator_.allocate(allocator_.user, &requirements, wanted, name, &allocation);
+    if (result == VK_SUCCESS) return FLK_SUCCESS;
+    allocation = {};
+    messages.say(FLK_SEVERITY_ERROR, "DEVICE_MEMORY", "the host's device allocator refused %" PRIu64 " bytes for %s", requirements.size, name);
+    return toResult(result);
+  }
+  uint32_t type = findMemoryType(memory_, requirements.memoryTypeBits, wanted | preferred);
+  if (type == UINT32_MAX) type = findMemoryType(memory_, requirements.memoryTypeBits, wanted);
+  VkMemoryAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  info.allocationSize = requirements.size;
+  info.memoryTypeIndex = type;
+  VkResult result = type == UINT32_MAX ? VK_ERROR_OUT_OF_DEVICE_MEMORY : fn.vkAllocateMemory(device, &info, nullptr, &allocation.memory);
+  if (result == VK_SUCCESS && (wanted & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT)) {
+    result = fn.vkMapMemory(device, allocation.memory, 0, VK_WHOLE_SIZE, 0, &allocation.mapped);
+    if (result != VK_SUCCESS) fn.vkFreeMemory(device, allocation.memory, nullptr), allocation = {};
+  }
+  if (result == VK_SUCCESS) return FLK_SUCCESS;
+  allocation = {};
+  messages.say(FLK_SEVERITY_ERROR, "DEVICE_MEMORY", "no device memory for %s (%" PRIu64 " bytes)", name, requirements.size);
+  return toResult(result);
+}
+
+void Device::release(FlkDeviceAllocation& allocation) {
+  if (host_allocates_) {
+    if (allocation.memory) allocator_.free(allocator_.user, &allocation);
+  } else if (allocation.memory) {
+    fn.vkFreeMemory(device, allocation.memory, nullptr);  // unmaps
+  }
+  allocation = {};
+}
+
+FlkResult Device::createBuffer(uint64_t size, VkBufferUsageFlags usage, bool host_visible, const char* name, Buffer& buffer) {
+  buffer = {};
+  buffer.size = size;
+  if (planning()) return FLK_SUCCESS;
+  VkBufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  info.size = size;
+  info.usage = usage;
+  VkResult result = fn.vkCreateBuffer(device, &info, nullptr, &buffer.handle);
+  if (result != VK_SUCCESS) return buffer = {}, toResult(result);
+  VkMemoryRequirements requirements{};
+  fn.vkGetBufferMemoryRequirements(device, buffer.handle, &requirements);
+  constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+  // What the device reads every frame should be near it, also where the host writes it once.
+  const bool near = !host_visible || (usage & VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  FlkResult flk = allocate(requirements, host_visible ? kHost : kLocal, near ? kLocal : VkMemoryPropertyFlags(0), name, buffer.memory);
+  if (flk == FLK_SUCCESS) flk = toResult(fn.vkBindBufferMemory(device, buffer.handle, buffer.memory.memory, buffer.memory.offset));
+  if (flk != FLK_SUCCESS) destroy(buffer);
+  return flk;
+}
+
+FlkResult Device::createDepthImage(uint32_t size, const char* name, Image& image) {
+  image = {};
+  image.size = size;
+  if (planning()) return FLK_SUCCESS;
+  VkImageCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+  info.imageType = VK_IMAGE_TYPE_2D;
+  info.format = VK_FORMAT_D32_SFLOAT;
+  info.extent = {size, size, 1};
+  info.mipLevels = info.arrayLayers = 1;
+  info.samples = VK_SAMPLE_COUNT_1_BIT;
+  info.tiling = VK_IMAGE_TILING_OPTIMAL;
+  info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  VkResult result = fn.vkCreateImage(device, &info, nullptr, &image.handle);
+  if (result != VK_SUCCESS) return image = {}, toResult(result);
+  VkMemoryRequirements requirements{};
+  fn.vkGetImageMemoryRequirements(device, image.handle, &requirements);
+  FlkResult flk = allocate(requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, name, image.memory);
+  if (flk == FLK_SUCCESS) flk = toResult(fn.vkBindImageMemory(device, image.handle, image.memory.memory, image.memory.offset));
+  if (flk == FLK_SUCCESS) {
+    VkImageViewCreateInfo view{};
+    view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    view.image = image.handle;
+    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view.format = info.format;
+    view.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+    flk = toResult(fn.vkCreateImageView(device, &view, nullptr, &image.view));
+    if (flk != FLK_SUCCESS) image.view = VK_NULL_HANDLE;
+  }
+  if (flk != FLK_SUCCESS) destroy(image);
+  return flk;
+}
+
+void Device::destroy(Buffer& buffer) {
+  if (buffer.handle) fn.vkDestroyBuffer(device, buffer.handle, nullptr);
+  if (!planning()) release(buffer.memory);
+  buffer = {};
+}
+
+void Device::destroy(Image& image) {
+  if (image.view) fn.vkDestroyImageView(device, image.view, nullptr);
+  if (image.handle) fn.vkDestroyImage(device, image.handle, nullptr);
+  if (!planning()) release(image.memory);
+  image = {};
+}
+
+}  // namespace forelock

@@ -1,0 +1,120 @@
+// The host's device as Forelock uses it: function table, memory, buffers, images. The only room that calls Vulkan.
+#pragma once
+
+#include "host/memory.h"
+
+#include "forelock/render.h"
+
+#include <cstdint>
+
+namespace forelock {
+
+#define FLK_INSTANCE_FUNCTIONS(X)        \
+  X(vkGetDeviceProcAddr)                 \
+  X(vkGetPhysicalDeviceProperties)       \
+  X(vkGetPhysicalDeviceFeatures2)        \
+  X(vkGetPhysicalDeviceMemoryProperties) \
+  X(vkGetPhysicalDeviceQueueFamilyProperties)
+
+#define FLK_DEVICE_FUNCTIONS(X)   \
+  X(vkAllocateDescriptorSets)     \
+  X(vkAllocateMemory)             \
+  X(vkBindBufferMemory)           \
+  X(vkBindImageMemory)            \
+  X(vkCmdBeginRendering)          \
+  X(vkCmdBindDescriptorSets)      \
+  X(vkCmdBindIndexBuffer)         \
+  X(vkCmdBindPipeline)            \
+  X(vkCmdCopyBuffer)              \
+  X(vkCmdDispatch)                \
+  X(vkCmdDrawIndexed)             \
+  X(vkCmdEndRendering)            \
+  X(vkCmdFillBuffer)              \
+  X(vkCmdPipelineBarrier2)        \
+  X(vkCmdPushConstants)           \
+  X(vkCmdResetQueryPool)          \
+  X(vkCmdSetScissor)              \
+  X(vkCmdSetViewport)             \
+  X(vkCmdUpdateBuffer)            \
+  X(vkCmdWriteTimestamp2)         \
+  X(vkCreateBuffer)               \
+  X(vkCreateComputePipelines)     \
+  X(vkCreateDescriptorPool)       \
+  X(vkCreateDescriptorSetLayout)  \
+  X(vkCreateGraphicsPipelines)    \
+  X(vkCreateImage)                \
+  X(vkCreateImageView)            \
+  X(vkCreatePipelineLayout)       \
+  X(vkCreateQueryPool)            \
+  X(vkCreateShaderModule)         \
+  X(vkDestroyBuffer)              \
+  X(vkDestroyDescriptorPool)      \
+  X(vkDestroyDescriptorSetLayout) \
+  X(vkDestroyImage)               \
+  X(vkDestroyImageView)           \
+  X(vkDestroyPipeline)            \
+  X(vkDestroyPipelineLayout)      \
+  X(vkDestroyQueryPool)           \
+  X(vkDestroyShaderModule)        \
+  X(vkFreeMemory)                 \
+  X(vkGetBufferMemoryRequirements)\
+  X(vkGetImageMemoryRequirements) \
+  X(vkGetQueryPoolResults)        \
+  X(vkMapMemory)                  \
+  X(vkUpdateDescriptorSets)
+
+struct Functions {
+#define FLK_DECLARE(name) PFN_##name name = nullptr;
+  FLK_INSTANCE_FUNCTIONS(FLK_DECLARE)
+  FLK_DEVICE_FUNCTIONS(FLK_DECLARE)
+#undef FLK_DECLARE
+};
+
+struct Buffer {
+  VkBuffer handle = VK_NULL_HANDLE;
+  FlkDeviceAllocation memory{};
+  uint64_t size = 0;
+};
+
+struct Image {
+  VkImage handle = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+  FlkDeviceAllocation memory{};
+  uint32_t size = 0;  // texels a side
+};
+
+FlkResult toResult(VkResult result);
+
+// Without a VkDevice (planning) nothing is created and create... succeed with empty handles.
+class Device {
+public:
+  Device() = default;
+  // FLK_ERROR_UNSUPPORTED_DEVICE: said which requirement fails.
+  FlkResult init(const FlkContextDesc& desc, const Messages& messages);
+
+  bool planning() const { return device == VK_NULL_HANDLE; }
+
+  // host_visible: mapped for as long as the buffer lives, coherent.
+  FlkResult createBuffer(uint64_t size, VkBufferUsageFlags usage, bool host_visible, const char* name, Buffer& buffer);
+  FlkResult createDepthImage(uint32_t size, const char* name, Image& image);
+  void destroy(Buffer& buffer);
+  void destroy(Image& image);
+
+  Functions fn;
+  VkDevice device = VK_NULL_HANDLE;
+  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+  VkPhysicalDeviceLimits limits{};
+  uint32_t timestamp_bits = 0;
+  Messages messages;
+
+private:
+  FlkResult allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
+                     const char* name, FlkDeviceAllocation& allocation);
+  void release(FlkDeviceAllocation& allocation);
+
+  VkPhysicalDeviceMemoryProperties memory_{};
+  FlkDeviceAllocator allocator_{};
+  bool host_allocates_ = false;
+};
+
+}  // namespace forelock

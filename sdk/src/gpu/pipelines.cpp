@@ -1,0 +1,171 @@
+#include "gpu/pipelines.h"
+
+#include "gpu/shader_code.h"
+
+#include <iterator>
+
+namespace forelock {
+namespace {
+
+constexpr VkShaderStageFlags kAllStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
+
+VkResult createShader(Device& device, ShaderId id, VkShaderModule& module) {
+  const auto code = shaderCode(id);
+  VkShaderModuleCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  info.codeSize = code.size_bytes();
+  info.pCode = code.data();
+  return device.fn.vkCreateShaderModule(device.device, &info, nullptr, &module);
+}
+
+VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module, const VkSpecializationInfo* constants) {
+  VkPipelineShaderStageCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage = stage;
+  info.module = module;
+  info.pName = "main";
+  info.pSpecializationInfo = constants;
+  return info;
+}
+
+VkResult createCompute(Device& device, VkPipelineLayout layout, VkShaderModule main, const VkSpecializationInfo* constants, VkPipeline& pipeline) {
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, main, constants);
+  info.layout = layout;
+  return device.fn.vkCreateComputePipelines(device.device, device.pipeline_cache, 1, &info, nullptr, &pipeline);
+}
+
+VkResult createRaster(Device& device, VkPipelineLayout layout, VkShaderModule vertex, VkShaderModule fragment, bool depth,
+                      const VkSpecializationInfo* constants, VkPipeline& pipeline) {
+  const VkPipelineShaderStageCreateInfo stages[] = {stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex, nullptr),
+                                                    stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, constants)};
+  VkPipelineVertexInputStateCreateInfo input{};
+  input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+  VkPipelineInputAssemblyStateCreateInfo assembly{};
+  assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+  assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  VkPipelineViewportStateCreateInfo viewport{};
+  viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+  viewport.viewportCount = viewport.scissorCount = 1;
+  VkPipelineRasterizationStateCreateInfo raster{};
+  raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+  raster.polygonMode = VK_POLYGON_MODE_FILL;
+  raster.cullMode = VK_CULL_MODE_NONE;
+  raster.lineWidth = 1;
+  VkPipelineMultisampleStateCreateInfo multisample{};
+  multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+  multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+  VkPipelineDepthStencilStateCreateInfo depth_state{};
+  depth_state.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+  depth_state.depthTestEnable = depth_state.depthWriteEnable = depth;
+  depth_state.depthCompareOp = VK_COMPARE_OP_LESS;
+  VkPipelineColorBlendStateCreateInfo blend{};
+  blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+  const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+  VkPipelineDynamicStateCreateInfo dynamic{};
+  dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+  dynamic.dynamicStateCount = uint32_t(std::size(states));
+  dynamic.pDynamicStates = states;
+  VkPipelineRenderingCreateInfo rendering{};
+  rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+  rendering.depthAttachmentFormat = depth ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_UNDEFINED;
+
+  VkGraphicsPipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+  info.pNext = &rendering;
+  info.stageCount = uint32_t(std::size(stages));
+  info.pStages = stages;
+  info.pVertexInputState = &input;
+  info.pInputAssemblyState = &assembly;
+  info.pViewportState = &viewport;
+  info.pRasterizationState = &raster;
+  info.pMultisampleState = &multisample;
+  info.pDepthStencilState = &depth_state;
+  info.pColorBlendState = &blend;
+  info.pDynamicState = &dynamic;
+  info.layout = layout;
+  return device.fn.vkCreateGraphicsPipelines(device.device, device.pipeline_cache, 1, &info, nullptr, &pipeline);
+}
+
+VkResult createSetLayout(Device& device, const VkDescriptorType* types, uint32_t count, VkDescriptorSetLayout& layout) {
+  VkDescriptorSetLayoutBinding bindings[8]{};
+  for (uint32_t i = 0; i < count; ++i) bindings[i] = {i, types[i], 1, kAllStages, nullptr};
+  VkDescriptorSetLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  info.bindingCount = count;
+  info.pBindings = bindings;
+  return device.fn.vkCreateDescriptorSetLayout(device.device, &info, nullptr, &layout);
+}
+
+}  // namespace
+
+FlkResult Pipelines::init(Device& device) {
+  if (device.planning()) return FLK_SUCCESS;
+  constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kImage = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+  const VkDescriptorType view_types[] = {kBuffer, kBuffer, kBuffer, kBuffer, kImage, kImage, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+  const VkDescriptorType hair_types[] = {kBuffer, kBuffer, kBuffer};
+  VkResult result = createSetLayout(device, view_types, uint32_t(std::size(view_types)), view_set);
+  if (result != VK_SUCCESS) view_set = VK_NULL_HANDLE;
+  if (result == VK_SUCCESS) {
+    result = createSetLayout(device, hair_types, uint32_t(std::size(hair_types)), hair_set);
+    if (result != VK_SUCCESS) hair_set = VK_NULL_HANDLE;
+  }
+  if (result == VK_SUCCESS) {
+    const VkDescriptorSetLayout sets[] = {view_set, hair_set};
+    const VkPushConstantRange range{VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(uint32_t)};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = uint32_t(std::size(sets));
+    info.pSetLayouts = sets;
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &range;
+    result = device.fn.vkCreatePipelineLayout(device.device, &info, nullptr, &layout);
+    if (result != VK_SUCCESS) layout = VK_NULL_HANDLE;
+  }
+  if (result != VK_SUCCESS) destroy(device);
+  return toResult(result);
+}
+
+void Pipelines::destroy(Device& device) {
+  for (const Entry& entry : cache_) device.fn.vkDestroyPipeline(device.device, entry.pipeline, nullptr);
+  cache_.clear();
+  if (layout) device.fn.vkDestroyPipelineLayout(device.device, layout, nullptr);
+  if (hair_set) device.fn.vkDestroyDescriptorSetLayout(device.device, hair_set, nullptr);
+  if (view_set) device.fn.vkDestroyDescriptorSetLayout(device.device, view_set, nullptr);
+  layout = VK_NULL_HANDLE;
+  hair_set = view_set = VK_NULL_HANDLE;
+}
+
+FlkResult Pipelines::get(Device& device, const Recipe& recipe, VkPipeline& pipeline) {
+  pipeline = VK_NULL_HANDLE;
+  if (device.planning()) return FLK_SUCCESS;
+  for (const Entry& entry : cache_)
+    if (entry.recipe == recipe) return pipeline = entry.pipeline, FLK_SUCCESS;
+  cache_.reserve(cache_.size() + 1);  // before there is a pipeline to lose
+
+  VkSpecializationMapEntry entries[4];
+  for (uint32_t i = 0; i < 4; ++i) entries[i] = {i, uint32_t(i * sizeof(uint32_t)), sizeof(uint32_t)};
+  const VkSpecializationInfo constants{4, entries, sizeof recipe.constants, recipe.constants};
+  VkShaderModule vertex = VK_NULL_HANDLE, main = VK_NULL_HANDLE;
+  VkResult result = createShader(device, recipe.main, main);
+  if (result != VK_SUCCESS) main = VK_NULL_HANDLE;
+  if (result == VK_SUCCESS && recipe.vertex != ShaderId::none) {
+    result = createShader(device, recipe.vertex, vertex);
+    if (result != VK_SUCCESS) vertex = VK_NULL_HANDLE;
+  }
+  if (result == VK_SUCCESS)
+    result = vertex ? createRaster(device, layout, vertex, main, recipe.depth_attachment, &constants, pipeline)
+                    : createCompute(device, layout, main, &constants, pipeline);
+  if (vertex) device.fn.vkDestroyShaderModule(device.device, vertex, nullptr);
+  if (main) device.fn.vkDestroyShaderModule(device.device, main, nullptr);
+  if (result != VK_SUCCESS) {
+    pipeline = VK_NULL_HANDLE;
+    device.messages.say(FLK_SEVERITY_ERROR, "PIPELINE", "the driver could not compile a pipeline (VkResult %d)", int(result));
+    return toResult(result);
+  }
+  cache_.push_back({recipe, pipeline});
+  return FLK_SUCCESS;
+}
+
+}  // namespace forelock

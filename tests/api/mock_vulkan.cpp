@@ -1,0 +1,1015 @@
+#include "mock_vulkan.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+namespace mock {
+namespace {
+
+Driver* the_driver = nullptr;
+
+VkDeviceSize roundUp(VkDeviceSize size, VkDeviceSize unit) { return (size + unit - 1) / unit * unit; }
+
+bool isDepth(VkFormat format) { return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT; }
+
+std::byte* bytesOf(const Object* buffer, VkDeviceSize offset) {
+  if (!buffer || !buffer->memory || !buffer->memory->bytes) return nullptr;
+  return static_cast<std::byte*>(buffer->memory->bytes) + buffer->memory_offset + offset;
+}
+
+// ---- Instance and physical device ----
+
+VKAPI_ATTR VkResult VKAPI_CALL EnumerateInstanceVersion(uint32_t* version) {
+  *version = Driver::current().claims.instance_version;
+  return VK_SUCCESS;
+}
+
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceProperties(VkPhysicalDevice, VkPhysicalDeviceProperties* properties) {
+  Driver::current().enter("vkGetPhysicalDeviceProperties");
+  *properties = Driver::current().claims.properties;
+}
+
+// Structs of the chain that are not known here stay as the caller zeroed them, which claims nothing.
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceProperties2(VkPhysicalDevice, VkPhysicalDeviceProperties2* properties) {
+  Driver::current().enter("vkGetPhysicalDeviceProperties2");
+  properties->properties = Driver::current().claims.properties;
+}
+
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceFeatures(VkPhysicalDevice, VkPhysicalDeviceFeatures* features) {
+  Driver::current().enter("vkGetPhysicalDeviceFeatures");
+  *features = Driver::current().claims.features;
+}
+
+template <class T> void answer(VkBaseOutStructure* asked, T claimed) {
+  claimed.sType = asked->sType;
+  claimed.pNext = asked->pNext;
+  std::memcpy(static_cast<void*>(asked), &claimed, sizeof claimed);
+}
+
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceFeatures2(VkPhysicalDevice, VkPhysicalDeviceFeatures2* features) {
+  Driver& driver = Driver::current();
+  driver.enter("vkGetPhysicalDeviceFeatures2");
+  features->features = driver.claims.features;
+  // A device of an older version does not know the structs of newer ones and leaves them alone.
+  const uint32_t version = driver.claims.properties.apiVersion;
+  for (auto* asked = static_cast<VkBaseOutStructure*>(features->pNext); asked; asked = asked->pNext) {
+    if (asked->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES && version >= VK_API_VERSION_1_2)
+      answer(asked, driver.claims.features12);
+    else if (asked->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES && version >= VK_API_VERSION_1_3)
+      answer(asked, driver.claims.features13);
+    else if (version >= VK_API_VERSION_1_3)
+      driver.breach("vkGetPhysicalDeviceFeatures2 with a struct the mock does not answer: " + std::to_string(asked->sType));
+  }
+}
+
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceMemoryProperties(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* memory) {
+  Driver::current().enter("vkGetPhysicalDeviceMemoryProperties");
+  *memory = Driver::current().claims.memory;
+}
+
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceMemoryProperties2(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties2* memory) {
+  Driver::current().enter("vkGetPhysicalDeviceMemoryProperties2");
+  memory->memoryProperties = Driver::current().claims.memory;
+}
+
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceQueueFamilyProperties(VkPhysicalDevice, uint32_t* count,
+                                                                  VkQueueFamilyProperties* families) {
+  Driver& driver = Driver::current();
+  driver.enter("vkGetPhysicalDeviceQueueFamilyProperties");
+  const auto available = static_cast<uint32_t>(driver.claims.queue_families.size());
+  if (families) std::copy_n(driver.claims.queue_families.begin(), std::min(*count, available), families);
+  *count = families ? std::min(*count, available) : available;
+}
+
+VkFormatFeatureFlags formatFeatures(VkFormat format) {
+  const auto& claimed = Driver::current().claims.formats;
+  if (auto found = claimed.find(format); found != claimed.end()) return found->second;
+  if (isDepth(format)) return VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  return VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT |
+         VK_FORMAT_FEATURE_STORAGE_IMAGE_ATOMIC_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+}
+
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceFormatProperties(VkPhysicalDevice, VkFormat format,
+                                                             VkFormatProperties* properties) {
+  Driver::current().enter("vkGetPhysicalDeviceFormatProperties");
+  *properties = {0, formatFeatures(format), 0};
+}
+
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceFormatProperties2(VkPhysicalDevice, VkFormat format,
+                                                              VkFormatProperties2* properties) {
+  Driver::current().enter("vkGetPhysicalDeviceFormatProperties2");
+  properties->formatProperties = {0, formatFeatures(format), 0};
+}
+
+// ---- Device: memory and resources ----
+
+VKAPI_ATTR VkResult VKAPI_CALL AllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks*,
+                                              VkDeviceMemory* memory) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkAllocateMemory");
+  VkResult result;
+  *memory = VK_NULL_HANDLE;
+  if (driver.refuse("vkAllocateMemory", &result)) return result;
+  if (info->memoryTypeIndex >= driver.claims.memory.memoryTypeCount || info->allocationSize == 0) {
+    driver.breach("vkAllocateMemory: memory type or size out of range");
+    return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  }
+  const uint32_t heap = driver.claims.memory.memoryTypes[info->memoryTypeIndex].heapIndex;
+  if (info->allocationSize > driver.claims.memory.memoryHeaps[heap].size) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  Object* object = driver.make(Kind::Memory);
+  object->size = info->allocationSize;
+  object->memory_type = info->memoryTypeIndex;
+  // Zeroed on first touch, so that a large pool costs nothing here.
+  object->bytes = std::calloc(1, info->allocationSize);
+  *memory = handleOf<VkDeviceMemory>(object);
+  return object->bytes ? VK_SUCCESS : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+
+VKAPI_ATTR void VKAPI_CALL FreeMemory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks*) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkFreeMemory");
+  driver.destroy(memory, Kind::Memory, "vkFreeMemory");
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL MapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize size,
+                                         VkMemoryMapFlags, void** data) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkMapMemory");
+  VkResult result;
+  if (driver.refuse("vkMapMemory", &result)) return result;
+  Object* object = driver.known(memory, Kind::Memory, "vkMapMemory");
+  if (!object) return VK_ERROR_MEMORY_MAP_FAILED;
+  const VkFlags flags = driver.claims.memory.memoryTypes[object->memory_type].propertyFlags;
+  if (!(flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT)) driver.breach("vkMapMemory: memory is not host visible");
+  if (object->mapped) driver.breach("vkMapMemory: memory is mapped already");
+  if (offset >= object->size || (size != VK_WHOLE_SIZE && offset + size > object->size))
+    driver.breach("vkMapMemory: range past the end");
+  object->mapped = true;
+  *data = static_cast<std::byte*>(object->bytes) + offset;
+  return VK_SUCCESS;
+}
+
+VKAPI_ATTR void VKAPI_CALL UnmapMemory(VkDevice device, VkDeviceMemory memory) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkUnmapMemory");
+  Object* object = driver.known(memory, Kind::Memory, "vkUnmapMemory");
+  if (!object) return;
+  if (!object->mapped) driver.breach("vkUnmapMemory: memory is not mapped");
+  object->mapped = false;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL FlushMappedMemoryRanges(VkDevice, uint32_t, const VkMappedMemoryRange*) {
+  VkResult result;
+  return Driver::current().refuse("vkFlushMappedMemoryRanges", &result) ? result : VK_SUCCESS;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL InvalidateMappedMemoryRanges(VkDevice, uint32_t, const VkMappedMemoryRange*) {
+  VkResult result;
+  return Driver::current().refuse("vkInvalidateMappedMemoryRanges", &result) ? result : VK_SUCCESS;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreateBuffer(VkDevice device, const VkBufferCreateInfo* info, const VkAllocationCallbacks*,
+                                            VkBuffer* buffer) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkCreateBuffer");
+  VkResult result;
+  *buffer = VK_NULL_HANDLE;
+  if (driver.refuse("vkCreateBuffer", &result)) return result;
+  if (info->size == 0 || info->usage == 0) driver.breach("vkCreateBuffer: no size or no usage");
+  Object* object = driver.make(Kind::Buffer);
+  object->size = info->size;
+  object->usage = info->usage;
+  *buffer = handleOf<VkBuffer>(object);
+  return VK_SUCCESS;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreateImage(VkDevice device, const VkImageCreateInfo* info, const VkAllocationCallbacks*,
+                                           VkImage* image) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkCreateImage");
+  VkResult result;
+  *image = VK_NULL_HANDLE;
+  if (driver.refuse("vkCreateImage", &result)) return result;
+  const uint32_t limit = driver.claims.properties.limits.maxImageDimension2D;
+  if (info->extent.width == 0 || info->extent.height == 0 || info->extent.width > limit || info->extent.height > limit)
+    driver.breach("vkCreateImage: extent out of range");
+  Object* object = driver.make(Kind::Image);
+  object->size = VkDeviceSize{8} * info->extent.width * info->extent.height * info->extent.depth * info->arrayLayers;
+  object->usage = info->usage;
+  *image = handleOf<VkImage>(object);
+  return VK_SUCCESS;
+}
+
+void memoryNeeds(const Object* object, VkMemoryRequirements* needs) {
+  const Claims& claims = Driver::current().claims;
+  *needs = {object ? roundUp(object->size, 256) : 256, 256, (1u << claims.memory.memoryTypeCount) - 1};
+}
+
+VKAPI_ATTR void VKAPI_CALL GetBufferMemoryRequirements(VkDevice, VkBuffer buffer, VkMemoryRequirements* needs) {
+  Driver::current().enter("vkGetBufferMemoryRequirements");
+  memoryNeeds(Driver::current().known(buffer, Kind::Buffer, "vkGetBufferMemoryRequirements"), needs);
+}
+
+VKAPI_ATTR void VKAPI_CALL GetImageMemoryRequirements(VkDevice, VkImage image, VkMemoryRequirements* needs) {
+  Driver::current().enter("vkGetImageMemoryRequirements");
+  memoryNeeds(Driver::current().known(image, Kind::Image, "vkGetImageMemoryRequirements"), needs);
+}
+
+VKAPI_ATTR void VKAPI_CALL GetBufferMemoryRequirements2(VkDevice device, const VkBufferMemoryRequirementsInfo2* info,
+                                                        VkMemoryRequirements2* needs) {
+  GetBufferMemoryRequirements(device, info->buffer, &needs->memoryRequirements);
+}
+
+VKAPI_ATTR void VKAPI_CALL GetImageMemoryRequirements2(VkDevice device, const VkImageMemoryRequirementsInfo2* info,
+                                                       VkMemoryRequirements2* needs) {
+  GetImageMemoryRequirements(device, info->image, &needs->memoryRequirements);
+}
+
+VkResult bind(const void* resource, Kind kind, VkDeviceMemory memory, VkDeviceSize offset, const char* name) {
+  Driver& driver = Driver::current();
+  VkResult result;
+  if (driver.refuse(name, &result)) return result;
+  Object* object = driver.known(resource, kind, name);
+  Object* block = driver.known(memory, Kind::Memory, name);
+  if (!object || !block) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  if (object->memory) driver.breach(std::string(name) + ": bound already");
+  VkMemoryRequirements needs;
+  memoryNeeds(object, &needs);
+  if (offset % needs.alignment != 0 || offset + needs.size > block->size)
+    driver.breach(std::string(name) + ": misaligned or past the end of the memory");
+  object->memory = block;
+  object->memory_offset = offset;
+  return VK_SUCCESS;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL BindBufferMemory(VkDevice, VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset) {
+  return bind(buffer, Kind::Buffer, memory, offset, "vkBindBufferMemory");
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL BindImageMemory(VkDevice, VkImage image, VkDeviceMemory memory, VkDeviceSize offset) {
+  return bind(image, Kind::Image, memory, offset, "vkBindImageMemory");
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreateImageView(VkDevice device, const VkImageViewCreateInfo* info,
+                                               const VkAllocationCallbacks*, VkImageView* view) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkCreateImageView");
+  VkResult result;
+  *view = VK_NULL_HANDLE;
+  if (driver.refuse("vkCreateImageView", &result)) return result;
+  Object* image = driver.known(info->image, Kind::Image, "vkCreateImageView");
+  if (image && !image->memory && !image->of_host) driver.breach("vkCreateImageView: the image has no memory");
+  Object* object = driver.make(Kind::ImageView);
+  object->uses = {image};
+  *view = handleOf<VkImageView>(object);
+  return VK_SUCCESS;
+}
+
+// ---- Device: shaders, pipelines, descriptors ----
+
+template <Kind kind, class Info, class Handle>
+VkResult createPlain(VkDevice device, const Info*, Handle* handle, const char* name) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, name);
+  VkResult result;
+  *handle = VK_NULL_HANDLE;
+  if (driver.refuse(name, &result)) return result;
+  *handle = handleOf<Handle>(driver.make(kind));
+  return VK_SUCCESS;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreateSampler(VkDevice device, const VkSamplerCreateInfo* info, const VkAllocationCallbacks*,
+                                             VkSampler* sampler) {
+  return createPlain<Kind::Sampler>(device, info, sampler, "vkCreateSampler");
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreateShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
+                                                  const VkAllocationCallbacks*, VkShaderModule* module) {
+  if (info->codeSize < 20 || info->codeSize % 4 != 0 || info->pCode[0] != 0x07230203u)
+    Driver::current().breach("vkCreateShaderModule: not SPIR-V");
+  return createPlain<Kind::ShaderModule>(device, info, module, "vkCreateShaderModule");
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreatePipelineCache(VkDevice device, const VkPipelineCacheCreateInfo* info,
+                                                   const VkAllocationCallbacks*, VkPipelineCache* cache) {
+  return createPlain<Kind::PipelineCache>(device, info, cache, "vkCreatePipelineCache");
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreateDescriptorSetLayout(VkDevice device, const VkDescriptorSetLayoutCreateInfo* info,
+                                                         const VkAllocationCallbacks*, VkDescriptorSetLayout* layout) {
+  const VkResult result = createPlain<Kind::SetLayout>(device, info, layout, "vkCreateDescriptorSetLayout");
+  if (result == VK_SUCCESS)
+    reinterpret_cast<Object*>(*layout)->layout.assign(info->pBindings, info->pBindings + info->bindingCount);
+  return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreatePipelineLayout(VkDevice device, const VkPipelineLayoutCreateInfo* info,
+                                                    const VkAllocationCallbacks*, VkPipelineLayout* layout) {
+  for (uint32_t i = 0; i < info->setLayoutCount; ++i)
+    Driver::current().known(info->pSetLayouts[i], Kind::SetLayout, "vkCreatePipelineLayout");
+  return createPlain<Kind::PipelineLayout>(device, info, layout, "vkCreatePipelineLayout");
+}
+
+VkResult makePipeline(VkPipelineLayout layout, const VkPipelineShaderStageCreateInfo* stages, uint32_t stage_count,
+                      VkPipelineBindPoint bind_point, VkPipeline* pipeline, const char* name) {
+  Driver& driver = Driver::current();
+  VkResult result;
+  *pipeline = VK_NULL_HANDLE;
+  if (driver.refuse(name, &result)) return result;
+  Object* layout_object = driver.known(layout, Kind::PipelineLayout, name);
+  for (uint32_t i = 0; i < stage_count; ++i) driver.known(stages[i].module, Kind::ShaderModule, name);
+  Object* object = driver.make(Kind::Pipeline);
+  object->bind_point = bind_point;
+  object->uses = {layout_object};
+  *pipeline = handleOf<VkPipeline>(object);
+  return VK_SUCCESS;
+}
+
+// A refused pipeline is VK_NULL_HANDLE; the others of the same call are made all the same, as the specification has it.
+VKAPI_ATTR VkResult VKAPI_CALL CreateGraphicsPipelines(VkDevice device, VkPipelineCache, uint32_t count,
+                                                       const VkGraphicsPipelineCreateInfo* infos,
+                                                       const VkAllocationCallbacks*, VkPipeline* pipelines) {
+  Driver::current().checkDevice(device, "vkCreateGraphicsPipelines");
+  VkResult worst = VK_SUCCESS;
+  for (uint32_t i = 0; i < count; ++i) {
+    const VkResult result = makePipeline(infos[i].layout, infos[i].pStages, infos[i].stageCount,
+                                         VK_PIPELINE_BIND_POINT_GRAPHICS, &pipelines[i], "vkCreateGraphicsPipelines");
+    if (result != VK_SUCCESS) worst = result;
+  }
+  return worst;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreateComputePipelines(VkDevice device, VkPipelineCache, uint32_t count,
+                                                      const VkComputePipelineCreateInfo* infos,
+                                                      const VkAllocationCallbacks*, VkPipeline* pipelines) {
+  Driver::current().checkDevice(device, "vkCreateComputePipelines");
+  VkResult worst = VK_SUCCESS;
+  for (uint32_t i = 0; i < count; ++i) {
+    const VkResult result = makePipeline(infos[i].layout, &infos[i].stage, 1, VK_PIPELINE_BIND_POINT_COMPUTE, &pipelines[i],
+                                         "vkCreateComputePipelines");
+    if (result != VK_SUCCESS) worst = result;
+  }
+  return worst;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreateDescriptorPool(VkDevice device, const VkDescriptorPoolCreateInfo* info,
+                                                    const VkAllocationCallbacks*, VkDescriptorPool* pool) {
+  const VkResult result = createPlain<Kind::DescriptorPool>(device, info, pool, "vkCreateDescriptorPool");
+  if (result != VK_SUCCESS) return result;
+  auto* object = reinterpret_cast<Object*>(*pool);
+  object->sets_left = info->maxSets;
+  object->usage = info->flags;
+  for (uint32_t i = 0; i < info->poolSizeCount; ++i)
+    object->room[info->pPoolSizes[i].type] += info->pPoolSizes[i].descriptorCount;
+  return VK_SUCCESS;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL AllocateDescriptorSets(VkDevice device, const VkDescriptorSetAllocateInfo* info,
+                                                      VkDescriptorSet* sets) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkAllocateDescriptorSets");
+  std::fill_n(sets, info->descriptorSetCount, VkDescriptorSet{});
+  VkResult result;
+  if (driver.refuse("vkAllocateDescriptorSets", &result)) return result;
+  Object* pool = driver.known(info->descriptorPool, Kind::DescriptorPool, "vkAllocateDescriptorSets");
+  if (!pool) return VK_ERROR_OUT_OF_POOL_MEMORY;
+  std::map<VkDescriptorType, uint32_t> room = pool->room;
+  for (uint32_t i = 0; i < info->descriptorSetCount; ++i) {
+    Object* layout = driver.known(info->pSetLayouts[i], Kind::SetLayout, "vkAllocateDescriptorSets");
+    if (!layout) return VK_ERROR_OUT_OF_POOL_MEMORY;
+    for (const VkDescriptorSetLayoutBinding& binding : layout->layout) {
+      if (room[binding.descriptorType] < binding.descriptorCount) return VK_ERROR_OUT_OF_POOL_MEMORY;
+      room[binding.descriptorType] -= binding.descriptorCount;
+    }
+  }
+  if (pool->sets_left < info->descriptorSetCount) return VK_ERROR_OUT_OF_POOL_MEMORY;
+  pool->sets_left -= info->descriptorSetCount;
+  pool->room = room;
+  for (uint32_t i = 0; i < info->descriptorSetCount; ++i) {
+    Object* set = driver.make(Kind::DescriptorSet);
+    set->layout = reinterpret_cast<Object*>(info->pSetLayouts[i])->layout;
+    pool->uses.push_back(set);
+    sets[i] = handleOf<VkDescriptorSet>(set);
+  }
+  return VK_SUCCESS;
+}
+
+void dropSet(Object* pool, Object* set, const char* by) {
+  Driver& driver = Driver::current();
+  if (!set->alive) return;
+  if (driver.busy(set)) driver.breach(std::string(by) + ": a descriptor set of a frame in flight");
+  for (const VkDescriptorSetLayoutBinding& binding : set->layout) pool->room[binding.descriptorType] += binding.descriptorCount;
+  ++pool->sets_left;
+  set->alive = false;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL FreeDescriptorSets(VkDevice device, VkDescriptorPool pool, uint32_t count,
+                                                  const VkDescriptorSet* sets) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkFreeDescriptorSets");
+  Object* object = driver.known(pool, Kind::DescriptorPool, "vkFreeDescriptorSets");
+  if (!object) return VK_SUCCESS;
+  if (!(object->usage & VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT))
+    driver.breach("vkFreeDescriptorSets: not from such a pool");
+  for (uint32_t i = 0; i < count; ++i)
+    if (sets[i])
+      if (Object* set = driver.known(sets[i], Kind::DescriptorSet, "vkFreeDescriptorSets"))
+        dropSet(object, set, "vkFreeDescriptorSets");
+  return VK_SUCCESS;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL ResetDescriptorPool(VkDevice device, VkDescriptorPool pool, VkDescriptorPoolResetFlags) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkResetDescriptorPool");
+  if (Object* object = driver.known(pool, Kind::DescriptorPool, "vkResetDescriptorPool")) {
+    for (Object* set : object->uses) dropSet(object, set, "vkResetDescriptorPool");
+    object->uses.clear();
+  }
+  return VK_SUCCESS;
+}
+
+bool isBufferType(VkDescriptorType type) {
+  return type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER || type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ||
+         type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC || type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
+}
+
+Object* writtenBuffer(const VkWriteDescriptorSet& write, const VkDescriptorBufferInfo& info) {
+  Driver& driver = Driver::current();
+  Object* buffer = driver.known(info.buffer, Kind::Buffer, "vkUpdateDescriptorSets");
+  if (!buffer) return nullptr;
+  const VkPhysicalDeviceLimits& limits = driver.claims.properties.limits;
+  const bool uniform = write.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ||
+                       write.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
+  const VkDeviceSize range = info.range == VK_WHOLE_SIZE ? buffer->size - info.offset : info.range;
+  if (info.offset + range > buffer->size) driver.breach("vkUpdateDescriptorSets: range past the end of the buffer");
+  if (range > (uniform ? limits.maxUniformBufferRange : limits.maxStorageBufferRange))
+    driver.breach("vkUpdateDescriptorSets: range of " + std::to_string(range) + " bytes beyond the device's limit");
+  if (info.offset % (uniform ? limits.minUniformBufferOffsetAlignment : limits.minStorageBufferOffsetAlignment) != 0)
+    driver.breach("vkUpdateDescriptorSets: misaligned offset");
+  if (!(buffer->usage & (uniform ? VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)))
+    driver.breach("vkUpdateDescriptorSets: the buffer was not made for that");
+  return buffer;
+}
+
+VKAPI_ATTR void VKAPI_CALL UpdateDescriptorSets(VkDevice device, uint32_t write_count, const VkWriteDescriptorSet* writes,
+                                                uint32_t copy_count, const VkCopyDescriptorSet*) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkUpdateDescriptorSets");
+  if (copy_count) driver.breach("vkUpdateDescriptorSets: copies are not modelled");
+  for (uint32_t w = 0; w < write_count; ++w) {
+    const VkWriteDescriptorSet& write = writes[w];
+    Object* set = driver.known(write.dstSet, Kind::DescriptorSet, "vkUpdateDescriptorSets");
+    if (!set) continue;
+    if (driver.busy(set)) driver.breach("vkUpdateDescriptorSets: a set of a frame in flight");
+    const bool fits = std::any_of(set->layout.begin(), set->layout.end(), [&](const VkDescriptorSetLayoutBinding& b) {
+      return b.binding == write.dstBinding && b.descriptorType == write.descriptorType &&
+             write.dstArrayElement + write.descriptorCount <= b.descriptorCount;
+    });
+    if (!fits) driver.breach("vkUpdateDescriptorSets: binding " + std::to_string(write.dstBinding) + " is not in the layout");
+    for (uint32_t i = 0; i < write.descriptorCount; ++i) {
+      Object* resource = nullptr;
+      if (isBufferType(write.descriptorType))
+        resource = writtenBuffer(write, write.pBufferInfo[i]);
+      else if (write.pImageInfo && write.descriptorType != VK_DESCRIPTOR_TYPE_SAMPLER)
+        resource = driver.known(write.pImageInfo[i].imageView, Kind::ImageView, "vkUpdateDescriptorSets");
+      if (resource) set->bindings[{write.dstBinding, write.dstArrayElement + i}] = resource;
+    }
+  }
+}
+
+// ---- Device: queries ----
+
+VKAPI_ATTR VkResult VKAPI_CALL CreateQueryPool(VkDevice device, const VkQueryPoolCreateInfo* info,
+                                               const VkAllocationCallbacks*, VkQueryPool* pool) {
+  const VkResult result = createPlain<Kind::QueryPool>(device, info, pool, "vkCreateQueryPool");
+  if (result != VK_SUCCESS) return result;
+  auto* object = reinterpret_cast<Object*>(*pool);
+  object->query_states.assign(info->queryCount, 0);
+  object->query_values.assign(info->queryCount, 0);
+  return VK_SUCCESS;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL GetQueryPoolResults(VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count, size_t size,
+                                                   void* data, VkDeviceSize stride, VkQueryResultFlags flags) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkGetQueryPoolResults");
+  if (flags & VK_QUERY_RESULT_WAIT_BIT) driver.breach("vkGetQueryPoolResults waits");
+  VkResult result;
+  if (driver.refuse("vkGetQueryPoolResults", &result)) return result;
+  Object* object = driver.known(pool, Kind::QueryPool, "vkGetQueryPoolResults");
+  if (!object || first + count > object->query_states.size()) {
+    driver.breach("vkGetQueryPoolResults: queries past the end");
+    return VK_NOT_READY;
+  }
+  const bool wide = flags & VK_QUERY_RESULT_64_BIT, availability = flags & VK_QUERY_RESULT_WITH_AVAILABILITY_BIT;
+  const size_t word = wide ? 8 : 4;
+  result = VK_SUCCESS;
+  for (uint32_t i = 0; i < count; ++i) {
+    const bool ready = object->query_states[first + i] == 2;
+    if (!ready) result = VK_NOT_READY;
+    if (stride * i + word * (availability ? 2 : 1) > size) {
+      driver.breach("vkGetQueryPoolResults: the answer does not fit");
+      return result;
+    }
+    auto* out = static_cast<std::byte*>(data) + stride * i;
+    const uint64_t values[2] = {object->query_values[first + i], ready ? 1u : 0u};
+    if (ready) std::memcpy(out, &values[0], word);
+    if (availability) std::memcpy(out + word, &values[1], word);
+  }
+  return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL ResetQueryPool(VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkResetQueryPool");
+  if (!driver.claims.features12.hostQueryReset) driver.breach("vkResetQueryPool: the feature is not among the requirements");
+  Object* object = driver.known(pool, Kind::QueryPool, "vkResetQueryPool");
+  if (object && driver.busy(object)) driver.breach("vkResetQueryPool: queries of a frame in flight");
+  for (uint32_t i = 0; object && i < count; ++i) object->query_states.at(first + i) = 1;
+}
+
+#define MOCK_DESTROY(Type, Handle)                                                                    \
+  VKAPI_ATTR void VKAPI_CALL Destroy##Type(VkDevice device, Handle handle, const VkAllocationCallbacks*) { \
+    Driver::current().checkDevice(device, "vkDestroy" #Type);                                         \
+    Driver::current().destroy(handle, destroyedKind(handle), "vkDestroy" #Type);                      \
+  }
+constexpr Kind destroyedKind(VkBuffer) { return Kind::Buffer; }
+constexpr Kind destroyedKind(VkImage) { return Kind::Image; }
+constexpr Kind destroyedKind(VkImageView) { return Kind::ImageView; }
+constexpr Kind destroyedKind(VkSampler) { return Kind::Sampler; }
+constexpr Kind destroyedKind(VkShaderModule) { return Kind::ShaderModule; }
+constexpr Kind destroyedKind(VkDescriptorSetLayout) { return Kind::SetLayout; }
+constexpr Kind destroyedKind(VkPipelineLayout) { return Kind::PipelineLayout; }
+constexpr Kind destroyedKind(VkPipeline) { return Kind::Pipeline; }
+constexpr Kind destroyedKind(VkDescriptorPool) { return Kind::DescriptorPool; }
+constexpr Kind destroyedKind(VkQueryPool) { return Kind::QueryPool; }
+constexpr Kind destroyedKind(VkPipelineCache) { return Kind::PipelineCache; }
+MOCK_DESTROY(Buffer, VkBuffer)
+MOCK_DESTROY(Image, VkImage)
+MOCK_DESTROY(ImageView, VkImageView)
+MOCK_DESTROY(Sampler, VkSampler)
+MOCK_DESTROY(ShaderModule, VkShaderModule)
+MOCK_DESTROY(DescriptorSetLayout, VkDescriptorSetLayout)
+MOCK_DESTROY(PipelineLayout, VkPipelineLayout)
+MOCK_DESTROY(Pipeline, VkPipeline)
+MOCK_DESTROY(DescriptorPool, VkDescriptorPool)
+MOCK_DESTROY(QueryPool, VkQueryPool)
+MOCK_DESTROY(PipelineCache, VkPipelineCache)
+#undef MOCK_DESTROY
+
+// ---- Recording ----
+
+// A command with one object: known, alive and used by this frame from now on.
+Command& recordWith(VkCommandBuffer cmd, const char* name, const void* handle, Kind kind, bool inside, bool both = false) {
+  Driver& driver = Driver::current();
+  Command& command = driver.record(cmd, name, inside, both);
+  if (Object* object = driver.known(handle, kind, name)) {
+    driver.use(object);
+    command.objects.push_back(object);
+  }
+  return command;
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdPipelineBarrier2(VkCommandBuffer cmd, const VkDependencyInfo* info) {
+  Driver& driver = Driver::current();
+  Command& command = driver.record(cmd, "vkCmdPipelineBarrier2", false);
+  command.image_barriers.assign(info->pImageMemoryBarriers, info->pImageMemoryBarriers + info->imageMemoryBarrierCount);
+  command.buffer_barriers = info->bufferMemoryBarrierCount + info->memoryBarrierCount;
+  for (const VkImageMemoryBarrier2& barrier : command.image_barriers)
+    if (Object* image = driver.known(barrier.image, Kind::Image, "vkCmdPipelineBarrier2")) {
+      driver.use(image);
+      command.objects.push_back(image);
+    }
+  for (uint32_t i = 0; i < info->bufferMemoryBarrierCount; ++i)
+    if (Object* buffer = driver.known(info->pBufferMemoryBarriers[i].buffer, Kind::Buffer, "vkCmdPipelineBarrier2"))
+      driver.use(buffer);
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdBindPipeline(VkCommandBuffer cmd, VkPipelineBindPoint point, VkPipeline pipeline) {
+  Command& command = recordWith(cmd, "vkCmdBindPipeline", pipeline, Kind::Pipeline, false, true);
+  if (!command.objects.empty() && command.objects[0]->bind_point != point)
+    Driver::current().breach("vkCmdBindPipeline: wrong bind point");
+  if (point <= VK_PIPELINE_BIND_POINT_COMPUTE) Driver::current().pipeline_bound[point] = true;
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdBindDescriptorSets(VkCommandBuffer cmd, VkPipelineBindPoint, VkPipelineLayout layout, uint32_t first,
+                                                 uint32_t count, const VkDescriptorSet* sets, uint32_t, const uint32_t*) {
+  Driver& driver = Driver::current();
+  Command& command = recordWith(cmd, "vkCmdBindDescriptorSets", layout, Kind::PipelineLayout, false, true);
+  command.numbers = {first, count};
+  for (uint32_t i = 0; i < count; ++i)
+    if (Object* set = driver.known(sets[i], Kind::DescriptorSet, "vkCmdBindDescriptorSets")) {
+      driver.use(set);
+      command.objects.push_back(set);
+    }
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdPushConstants(VkCommandBuffer cmd, VkPipelineLayout layout, VkShaderStageFlags, uint32_t offset,
+                                            uint32_t size, const void*) {
+  recordWith(cmd, "vkCmdPushConstants", layout, Kind::PipelineLayout, false, true).numbers = {offset, size};
+}
+
+void needPipeline(VkPipelineBindPoint point, const char* name) {
+  if (!Driver::current().pipeline_bound[point]) Driver::current().breach(std::string(name) + ": no pipeline is bound");
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdDispatch(VkCommandBuffer cmd, uint32_t x, uint32_t y, uint32_t z) {
+  Driver& driver = Driver::current();
+  needPipeline(VK_PIPELINE_BIND_POINT_COMPUTE, "vkCmdDispatch");
+  driver.record(cmd, "vkCmdDispatch", false).numbers = {x, y, z};
+  const uint32_t* limit = driver.claims.properties.limits.maxComputeWorkGroupCount;
+  if (x > limit[0] || y > limit[1] || z > limit[2]) driver.breach("vkCmdDispatch: too many groups");
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdDispatchIndirect(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset) {
+  needPipeline(VK_PIPELINE_BIND_POINT_COMPUTE, "vkCmdDispatchIndirect");
+  recordWith(cmd, "vkCmdDispatchIndirect", buffer, Kind::Buffer, false).numbers = {offset};
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdDraw(VkCommandBuffer cmd, uint32_t vertices, uint32_t instances, uint32_t, uint32_t) {
+  needPipeline(VK_PIPELINE_BIND_POINT_GRAPHICS, "vkCmdDraw");
+  Driver::current().record(cmd, "vkCmdDraw", true).numbers = {vertices, instances};
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdDrawIndexed(VkCommandBuffer cmd, uint32_t indices, uint32_t instances, uint32_t, int32_t, uint32_t) {
+  needPipeline(VK_PIPELINE_BIND_POINT_GRAPHICS, "vkCmdDrawIndexed");
+  Driver::current().record(cmd, "vkCmdDrawIndexed", true).numbers = {indices, instances};
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdBindIndexBuffer(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset, VkIndexType) {
+  recordWith(cmd, "vkCmdBindIndexBuffer", buffer, Kind::Buffer, false, true).numbers = {offset};
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdSetViewport(VkCommandBuffer cmd, uint32_t, uint32_t, const VkViewport*) {
+  Driver::current().record(cmd, "vkCmdSetViewport", false, true);
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdSetScissor(VkCommandBuffer cmd, uint32_t, uint32_t, const VkRect2D* scissors) {
+  Command& command = Driver::current().record(cmd, "vkCmdSetScissor", false, true);
+  command.numbers = {scissors[0].extent.width, scissors[0].extent.height};
+  if (scissors[0].offset.x < 0 || scissors[0].offset.y < 0) Driver::current().breach("vkCmdSetScissor: negative offset");
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdBeginRendering(VkCommandBuffer cmd, const VkRenderingInfo* info) {
+  Driver& driver = Driver::current();
+  Command& command = driver.record(cmd, "vkCmdBeginRendering", false);
+  command.numbers = {info->renderArea.extent.width, info->renderArea.extent.height};
+  std::vector<const VkRenderingAttachmentInfo*> attachments{info->pDepthAttachment, info->pStencilAttachment};
+  for (uint32_t i = 0; i < info->colorAttachmentCount; ++i) attachments.push_back(&info->pColorAttachments[i]);
+  for (const VkRenderingAttachmentInfo* attachment : attachments)
+    if (attachment && attachment->imageView)
+      if (Object* view = driver.known(attachment->imageView, Kind::ImageView, "vkCmdBeginRendering")) {
+        driver.use(view);
+        command.objects.push_back(view);
+      }
+  driver.inside_rendering = true;
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdEndRendering(VkCommandBuffer cmd) {
+  Driver::current().record(cmd, "vkCmdEndRendering", true);
+  Driver::current().inside_rendering = false;
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdCopyBuffer(VkCommandBuffer cmd, VkBuffer from, VkBuffer to, uint32_t count,
+                                         const VkBufferCopy* regions) {
+  Driver& driver = Driver::current();
+  Command& command = recordWith(cmd, "vkCmdCopyBuffer", from, Kind::Buffer, false);
+  Object* source = driver.known(from, Kind::Buffer, "vkCmdCopyBuffer");
+  Object* target = driver.known(to, Kind::Buffer, "vkCmdCopyBuffer");
+  if (!source || !target) return;
+  driver.use(target);
+  command.objects.push_back(target);
+  if (!(source->usage & VK_BUFFER_USAGE_TRANSFER_SRC_BIT) || !(target->usage & VK_BUFFER_USAGE_TRANSFER_DST_BIT))
+    driver.breach("vkCmdCopyBuffer: a buffer was not made for that");
+  for (uint32_t i = 0; i < count; ++i) {
+    const VkBufferCopy& region = regions[i];
+    if (region.srcOffset + region.size > source->size || region.dstOffset + region.size > target->size) {
+      driver.breach("vkCmdCopyBuffer: region past the end");
+      continue;
+    }
+    command.numbers.insert(command.numbers.end(), {region.srcOffset, region.dstOffset, region.size});
+    std::byte *read = bytesOf(source, region.srcOffset), *write = bytesOf(target, region.dstOffset);
+    if (read && write) std::memmove(write, read, region.size);
+    else driver.breach("vkCmdCopyBuffer: a buffer has no memory");
+  }
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdFillBuffer(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
+                                         uint32_t value) {
+  Driver& driver = Driver::current();
+  Command& command = recordWith(cmd, "vkCmdFillBuffer", buffer, Kind::Buffer, false);
+  if (command.objects.empty()) return;
+  Object* target = command.objects[0];
+  const VkDeviceSize bytes = size == VK_WHOLE_SIZE ? (target->size - offset) / 4 * 4 : size;
+  command.numbers = {offset, bytes, value};
+  if (!(target->usage & VK_BUFFER_USAGE_TRANSFER_DST_BIT) || offset % 4 != 0 || bytes % 4 != 0 || offset + bytes > target->size) {
+    driver.breach("vkCmdFillBuffer: wrong usage, alignment or range");
+    return;
+  }
+  if (auto* words = reinterpret_cast<uint32_t*>(bytesOf(target, offset))) std::fill_n(words, bytes / 4, value);
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdUpdateBuffer(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
+                                           const void* data) {
+  Driver& driver = Driver::current();
+  Command& command = recordWith(cmd, "vkCmdUpdateBuffer", buffer, Kind::Buffer, false);
+  command.numbers = {offset, size};
+  if (command.objects.empty()) return;
+  if (size > 65536 || size % 4 != 0 || offset % 4 != 0 || offset + size > command.objects[0]->size) {
+    driver.breach("vkCmdUpdateBuffer: wrong size or range");
+    return;
+  }
+  if (std::byte* write = bytesOf(command.objects[0], offset)) std::memcpy(write, data, size);
+}
+
+VKAPI_ATTR void VKAPI_CALL CmdResetQueryPool(VkCommandBuffer cmd, VkQueryPool pool, uint32_t first, uint32_t count) {
+  Command& command = recordWith(cmd, "vkCmdResetQueryPool", pool, Kind::QueryPool, false);
+  command.numbers = {first, count};
+  for (uint32_t i = 0; !command.objects.empty() && i < count; ++i) command.objects[0]->query_states.at(first + i) = 1;
+}
+
+// Each stamp is a millisecond after the one before (timestampPeriod is 1 ns).
+VKAPI_ATTR void VKAPI_CALL CmdWriteTimestamp2(VkCommandBuffer cmd, VkPipelineStageFlags2, VkQueryPool pool, uint32_t query) {
+  static uint64_t now = 0;
+  Driver& driver = Driver::current();
+  Command& command = recordWith(cmd, "vkCmdWriteTimestamp2", pool, Kind::QueryPool, false, true);
+  command.numbers = {query};
+  if (command.objects.empty()) return;
+  int& state = command.objects[0]->query_states.at(query);
+  if (state != 1) driver.breach("vkCmdWriteTimestamp2: the query was not reset");
+  state = 2;
+  command.objects[0]->query_values[query] = now += 1000000;
+}
+
+// ---- Looking functions up ----
+
+const std::map<std::string, PFN_vkVoidFunction>& functions() {
+#define MOCK(Name) {"vk" #Name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_vk##Name>(Name))}
+  static const std::map<std::string, PFN_vkVoidFunction> table = {
+      MOCK(EnumerateInstanceVersion), MOCK(GetPhysicalDeviceProperties), MOCK(GetPhysicalDeviceProperties2),
+      MOCK(GetPhysicalDeviceFeatures), MOCK(GetPhysicalDeviceFeatures2), MOCK(GetPhysicalDeviceMemoryProperties),
+      MOCK(GetPhysicalDeviceMemoryProperties2), MOCK(GetPhysicalDeviceQueueFamilyProperties),
+      MOCK(GetPhysicalDeviceFormatProperties), MOCK(GetPhysicalDeviceFormatProperties2), MOCK(AllocateMemory), MOCK(FreeMemory),
+      MOCK(MapMemory), MOCK(UnmapMemory), MOCK(FlushMappedMemoryRanges), MOCK(InvalidateMappedMemoryRanges),
+      MOCK(CreateBuffer), MOCK(DestroyBuffer), MOCK(CreateImage), MOCK(DestroyImage), MOCK(GetBufferMemoryRequirements),
+      MOCK(GetImageMemoryRequirements), MOCK(GetBufferMemoryRequirements2), MOCK(GetImageMemoryRequirements2),
+      MOCK(BindBufferMemory), MOCK(BindImageMemory), MOCK(CreateImageView), MOCK(DestroyImageView), MOCK(CreateSampler),
+      MOCK(DestroySampler), MOCK(CreateShaderModule), MOCK(DestroyShaderModule), MOCK(CreatePipelineCache),
+      MOCK(DestroyPipelineCache), MOCK(CreateDescriptorSetLayout), MOCK(DestroyDescriptorSetLayout), MOCK(CreatePipelineLayout),
+      MOCK(DestroyPipelineLayout), MOCK(CreateGraphicsPipelines), MOCK(CreateComputePipelines), MOCK(DestroyPipeline),
+      MOCK(CreateDescriptorPool), MOCK(DestroyDescriptorPool), MOCK(ResetDescriptorPool), MOCK(AllocateDescriptorSets),
+      MOCK(FreeDescriptorSets), MOCK(UpdateDescriptorSets), MOCK(CreateQueryPool), MOCK(DestroyQueryPool),
+      MOCK(GetQueryPoolResults), MOCK(ResetQueryPool), MOCK(CmdPipelineBarrier2), MOCK(CmdBindPipeline),
+      MOCK(CmdBindDescriptorSets), MOCK(CmdPushConstants), MOCK(CmdDispatch), MOCK(CmdDispatchIndirect), MOCK(CmdDraw),
+      MOCK(CmdDrawIndexed), MOCK(CmdBindIndexBuffer), MOCK(CmdSetViewport), MOCK(CmdSetScissor), MOCK(CmdBeginRendering),
+      MOCK(CmdEndRendering), MOCK(CmdCopyBuffer), MOCK(CmdFillBuffer), MOCK(CmdUpdateBuffer), MOCK(CmdResetQueryPool),
+      MOCK(CmdWriteTimestamp2)};
+#undef MOCK
+  return table;
+}
+
+PFN_vkVoidFunction find(const char* name, bool of_device) {
+  Driver& driver = Driver::current();
+  driver.enter(of_device ? "vkGetDeviceProcAddr" : "vkGetInstanceProcAddr");
+  driver.asked_for.insert(name);
+  // What the host alone does.
+  static const std::set<std::string> forbidden = {
+      "vkQueueSubmit", "vkQueueSubmit2", "vkQueueWaitIdle", "vkDeviceWaitIdle", "vkWaitForFences", "vkWaitSemaphores",
+      "vkGetDeviceQueue", "vkGetDeviceQueue2", "vkCreateDevice", "vkCreateInstance", "vkCreateCommandPool",
+      "vkAllocateCommandBuffers", "vkBeginCommandBuffer", "vkEndCommandBuffer", "vkCreateFence", "vkCreateSemaphore",
+      "vkQueueBindSparse", "vkQueuePresentKHR", "vkDestroyDevice", "vkDestroyInstance"};
+  if (forbidden.count(name)) driver.breach(std::string("asks for ") + name);
+  if (driver.claims.missing_functions.count(name)) return nullptr;
+  const auto found = functions().find(name);
+  return found == functions().end() ? nullptr : found->second;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL GetDeviceProcAddr(VkDevice device, const char* name) {
+  Driver::current().checkDevice(device, "vkGetDeviceProcAddr");
+  return find(name, true);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL GetInstanceProcAddr(VkInstance instance, const char* name) {
+  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
+    return reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_vkGetDeviceProcAddr>(GetDeviceProcAddr));
+  // Without an instance only the functions that make one are to be had.
+  if (!instance && std::strcmp(name, "vkEnumerateInstanceVersion") != 0) return nullptr;
+  return find(name, false);
+}
+
+}  // namespace
+
+const char* kindName(Kind kind) {
+  static const char* const names[] = {"instance", "physical device", "device", "command buffer", "buffer", "image", "image view",
+                                      "sampler", "memory", "shader module", "set layout", "pipeline layout", "pipeline",
+                                      "descriptor pool", "descriptor set", "query pool", "pipeline cache"};
+  return names[static_cast<int>(kind)];
+}
+
+Claims::Claims() {
+  std::strcpy(properties.deviceName, "mock");
+  properties.apiVersion = VK_API_VERSION_1_3;
+  properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+  VkPhysicalDeviceLimits& limits = properties.limits;
+  limits.maxImageDimension2D = 16384;
+  limits.maxFramebufferWidth = limits.maxFramebufferHeight = 16384;
+  limits.maxStorageBufferRange = 1u << 27;  // 128 MiB, lavapipe's and the least the specification allows
+  limits.maxUniformBufferRange = 65536;
+  limits.maxPushConstantsSize = 128;
+  limits.maxMemoryAllocationCount = 4096;
+  limits.bufferImageGranularity = 64;
+  limits.maxBoundDescriptorSets = 4;
+  limits.maxPerStageDescriptorStorageBuffers = limits.maxPerStageDescriptorSampledImages = 16;
+  limits.maxPerStageDescriptorStorageImages = limits.maxPerStageDescriptorUniformBuffers = 8;
+  limits.maxPerStageResources = 128;
+  limits.maxComputeSharedMemorySize = 32768;
+  limits.maxComputeWorkGroupInvocations = 1024;
+  for (int i = 0; i < 3; ++i) {
+    limits.maxComputeWorkGroupCount[i] = 65535;
+    limits.maxComputeWorkGroupSize[i] = i < 2 ? 1024 : 64;
+  }
+  limits.minStorageBufferOffsetAlignment = limits.minUniformBufferOffsetAlignment = 64;
+  limits.minMemoryMapAlignment = 64;
+  limits.nonCoherentAtomSize = 64;
+  limits.timestampComputeAndGraphics = VK_TRUE;
+  limits.timestampPeriod = 1.0f;
+  limits.maxViewportDimensions[0] = limits.maxViewportDimensions[1] = 16384;
+  features.fragmentStoresAndAtomics = VK_TRUE;
+  features12.scalarBlockLayout = VK_TRUE;
+  features13.dynamicRendering = VK_TRUE;
+  features13.synchronization2 = VK_TRUE;
+  queue_families = {{VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT, 1, 64, {1, 1, 1}},
+                    {VK_QUEUE_TRANSFER_BIT, 1, 0, {1, 1, 1}}};
+  memory.memoryHeapCount = 2;
+  memory.memoryHeaps[0] = {VkDeviceSize{8} << 30, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+  memory.memoryHeaps[1] = {VkDeviceSize{16} << 30, 0};
+  memory.memoryTypeCount = 3;
+  memory.memoryTypes[0] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+  memory.memoryTypes[1] = {VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 1};
+  memory.memoryTypes[2] = {VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |
+                               VK_MEMORY_PROPERTY_HOST_CACHED_BIT, 1};
+}
+
+Driver::Driver() {
+  if (the_driver) std::abort();
+  the_driver = this;
+  const auto ofHost = [this](Kind kind) {
+    Object* object = make(kind);
+    object->of_host = true;
+    return object;
+  };
+  instance = handleOf<VkInstance>(ofHost(Kind::Instance));
+  physical_device = handleOf<VkPhysicalDevice>(ofHost(Kind::PhysicalDevice));
+  device = handleOf<VkDevice>(ofHost(Kind::Device));
+  command_buffer = handleOf<VkCommandBuffer>(ofHost(Kind::CommandBuffer));
+}
+
+Driver::~Driver() {
+  for (const auto& object : objects_) std::free(object->bytes);
+  the_driver = nullptr;
+}
+
+Driver& Driver::current() {
+  if (!the_driver) std::abort();
+  return *the_driver;
+}
+
+PFN_vkGetInstanceProcAddr Driver::getInstanceProcAddr() { return GetInstanceProcAddr; }
+
+VkImage Driver::hostImage(VkImageView* view) {
+  Object* image = make(Kind::Image);
+  Object* image_view = make(Kind::ImageView);
+  image->of_host = image_view->of_host = true;
+  image_view->uses = {image};
+  *view = handleOf<VkImageView>(image_view);
+  return handleOf<VkImage>(image);
+}
+
+size_t Driver::alive(Kind kind) const {
+  return static_cast<size_t>(std::count_if(objects_.begin(), objects_.end(), [&](const auto& object) {
+    return object->alive && !object->of_host && object->kind == kind;
+  }));
+}
+
+std::string Driver::leaks() const {
+  std::map<std::string, int> counts;
+  for (const auto& object : objects_)
+    if (object->alive && !object->of_host) ++counts[kindName(object->kind)];
+  std::string text;
+  for (const auto& [name, count] : counts) text += std::to_string(count) + " x " + name + "; ";
+  return text;
+}
+
+VkDeviceSize Driver::bytesAllocated() const {
+  VkDeviceSize bytes = 0;
+  for (const auto& object : objects_)
+    if (object->alive && object->kind == Kind::Memory) bytes += object->size;
+  return bytes;
+}
+
+uint64_t Driver::calledOutsideRecording() const {
+  uint64_t count = 0;
+  for (const auto& [name, times] : calls)
+    if (name.rfind("vkCmd", 0) != 0) count += times;
+  return count;
+}
+
+std::vector<std::string> Driver::commandNames() const {
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.name);
+  return names;
+}
+
+size_t Driver::countCommands(const std::string& name) const {
+  return static_cast<size_t>(
+      std::count_if(commands.begin(), commands.end(), [&](const Command& command) { return command.name == name; }));
+}
+
+uint32_t* Driver::latestReadBack() const {
+  for (auto command = commands.rbegin(); command != commands.rend(); ++command) {
+    if (command->name != "vkCmdCopyBuffer" || command->objects.size() != 2 || command->numbers.size() < 3) continue;
+    const Object* target = command->objects[1];
+    const VkFlags flags = target->memory ? claims.memory.memoryTypes[target->memory->memory_type].propertyFlags : 0;
+    if (flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) return reinterpret_cast<uint32_t*>(bytesOf(target, command->numbers[1]));
+  }
+  return nullptr;
+}
+
+Object* Driver::make(Kind kind) {
+  objects_.push_back(std::make_unique<Object>());
+  objects_.back()->kind = kind;
+  addresses_.insert(objects_.back().get());
+  return objects_.back().get();
+}
+
+Object* Driver::known(const void* handle, Kind kind, const char* by) {
+  if (!addresses_.count(handle)) {
+    breach(std::string(by) + ": " + (handle ? "an unknown handle" : "VK_NULL_HANDLE") + " where a " + kindName(kind) + " belongs");
+    return nullptr;
+  }
+  auto* object = static_cast<Object*>(const_cast<void*>(handle));
+  if (object->kind != kind) {
+    breach(std::string(by) + ": a " + kindName(object->kind) + " where a " + kindName(kind) + " belongs");
+    return nullptr;
+  }
+  if (!object->alive) {
+    breach(std::string(by) + ": a " + kindName(kind) + " that was destroyed");
+    return nullptr;
+  }
+  return object;
+}
+
+void Driver::enter(const char* name) {
+  ++calls[name];
+  if (recording_only && std::strncmp(name, "vkCmd", 5) != 0) breach(std::string(name) + " while recording");
+}
+
+bool Driver::refuse(const char* name, VkResult* result) {
+  if (++fallible_calls != fail_at) return false;
+  failed_call = name;
+  *result = failure;
+  return true;
+}
+
+void Driver::checkDevice(VkDevice handle, const char* by) {
+  enter(by);
+  if (handle != device) breach(std::string(by) + ": not the host's device");
+}
+
+// What an object uses is used with it: sets their resources, views their image, resources their memory.
+void Driver::use(Object* object) {
+  if (!object) return;
+  if (!object->alive) breach(std::string("a ") + kindName(object->kind) + " is used after it was destroyed");
+  object->last_frame = std::max(object->last_frame, frame);
+  if (object->memory) use(object->memory);
+  for (Object* part : object->uses) use(part);
+  for (const auto& [place, resource] : object->bindings) use(resource);
+}
+
+void Driver::destroy(const void* handle, Kind kind, const char* by) {
+  if (!handle) return;  // allowed by every vkDestroy... and vkFree...
+  Object* object = known(handle, kind, by);
+  if (!object) return;
+  if (object->of_host) breach(std::string(by) + ": the host's");
+  if (busy(object)) breach(std::string(by) + ": frame " + std::to_string(object->last_frame) + " in flight uses it");
+  object->alive = false;
+  if (kind == Kind::DescriptorPool)
+    for (Object* set : object->uses) dropSet(object, set, by);
+  if (kind == Kind::Memory) {
+    std::free(object->bytes);
+    object->bytes = nullptr;
+  }
+}
+
+Command& Driver::record(VkCommandBuffer cmd, const char* name, bool wanted_inside, bool allowed_both) {
+  enter(name);
+  if (cmd != command_buffer) breach(std::string(name) + ": not the host's command buffer");
+  if (!allowed_both && wanted_inside != inside_rendering)
+    breach(std::string(name) + (inside_rendering ? ": inside rendering" : ": outside rendering"));
+  commands.emplace_back();
+  commands.back().name = name;
+  return commands.back();
+}
+
+}  // namespace mock

@@ -1,0 +1,167 @@
+#include "scene.h"
+
+#include <cmath>
+
+namespace {
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += "\n  " + line;
+  return text;
+}
+
+}  // namespace
+
+forelock::Asset makeAsset(uint32_t strands, float x, const FlkHostAllocator* allocator) {
+  constexpr uint32_t kVertices = 8;
+  std::vector<uint32_t> first_vertex;
+  std::vector<float> positions, radii;
+  for (uint32_t s = 0; s < strands; ++s) {
+    first_vertex.push_back(s * kVertices);
+    const float turn = 2.3999632f * static_cast<float>(s);
+    const float away = 0.03f * std::sqrt(static_cast<float>(s) / static_cast<float>(strands));
+    for (uint32_t v = 0; v < kVertices; ++v) {
+      const float along = static_cast<float>(v) / (kVertices - 1);
+      const float out = away * (1.0f + along);
+      positions.insert(positions.end(), {x + out * std::cos(turn), 0.1f * along, out * std::sin(turn)});
+      radii.push_back(0.2e-3f * (1.0f - 0.8f * along));
+    }
+  }
+  first_vertex.push_back(strands * kVertices);
+  FlkStrands description = forelock::strandsDesc();
+  description.strand_count = strands;
+  description.vertex_count = strands * kVertices;
+  description.first_vertex = first_vertex.data();
+  description.positions = positions.data();
+  description.radii = radii.data();
+  FlkAssetOptions options = forelock::assetOptions();
+  options.allocator = allocator;
+  forelock::Asset asset;
+  EXPECT_EQ(forelock::create(description, &options, asset), FLK_SUCCESS);
+  return asset;
+}
+
+Scene::Scene() : desc(forelock::contextDesc()) {
+  desc.instance = driver.instance;
+  desc.physical_device = driver.physical_device;
+  desc.device = driver.device;
+  desc.get_instance_proc_addr = mock::Driver::getInstanceProcAddr();
+  desc.allocator = &memory.callbacks;
+  desc.message = [](void* user, const FlkMessage* message) {
+    auto* scene = static_cast<Scene*>(user);
+    scene->message_ids.emplace_back(message->id);
+    scene->last_message = message->text;
+  };
+  desc.message_user = this;
+  light = {{0.3f, 1.0f, 0.5f}, {2.0f, 2.0f, 2.0f}, 1, 512};
+  target_ = driver.hostImage(&target_view_);
+  depth_ = driver.hostImage(&depth_view_);
+}
+
+forelock::Hair Scene::createHair(FlkAsset asset) {
+  FlkHairDesc hair_desc = forelock::hairDesc();
+  hair_desc.asset = asset;
+  forelock::Hair hair;
+  EXPECT_EQ(forelock::create(context, hair_desc, hair), FLK_SUCCESS) << last_message;
+  return hair;
+}
+
+forelock::View Scene::createView(uint32_t frames_in_flight, uint64_t pool_budget) {
+  FlkViewDesc view_desc = forelock::viewDesc();
+  view_desc.frames_in_flight = frames_in_flight;
+  view_desc.pool_budget = pool_budget;
+  forelock::View view;
+  EXPECT_EQ(forelock::create(context, view_desc, view), FLK_SUCCESS) << last_message;
+  return view;
+}
+
+FlkFrame Scene::frame(uint64_t number, uint64_t completed, std::vector<FlkHair> hairs) {
+  hairs_ = std::move(hairs);
+  FlkFrame frame = forelock::frameDesc();
+  frame.frame_number = number;
+  frame.completed_frame = completed;
+  for (int i = 0; i < 4; ++i) frame.view_from_world[5 * i] = 1.0;
+  frame.view_from_world[13] = -0.05;
+  frame.view_from_world[14] = -0.6;
+  const float focal = 2.5f, near_plane = 0.05f, far_plane = 10.0f;
+  frame.clip_from_view[0] = focal * 200.0f / 320.0f;
+  frame.clip_from_view[5] = -focal;
+  frame.clip_from_view[10] = far_plane / (near_plane - far_plane);
+  frame.clip_from_view[11] = -1.0f;
+  frame.clip_from_view[14] = near_plane * far_plane / (near_plane - far_plane);
+  frame.hair_count = static_cast<uint32_t>(hairs_.size());
+  frame.hairs = hairs_.data();
+  frame.light_count = 1;
+  frame.lights = &light;
+  frame.timestamps = 1;
+  FlkColorTarget& target = frame.target;
+  target.image = target_;
+  target.view = target_view_;
+  target.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  target.samples = VK_SAMPLE_COUNT_1_BIT;
+  target.range = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  target.width = 320;
+  target.height = 200;
+  target.entry = {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                  VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+  target.exit = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                 VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+  FlkDepthSource& depth = frame.depth;
+  depth.image = depth_;
+  depth.view = depth_view_;
+  depth.format = VK_FORMAT_D32_SFLOAT;
+  depth.samples = VK_SAMPLE_COUNT_1_BIT;
+  depth.range = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+  depth.layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+  depth.entry_stages = VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+  depth.entry_access = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+  return frame;
+}
+
+FlkResult Scene::render(FlkView view, const FlkFrame& asked, FlkPlan* planned) {
+  driver.completed = std::max(driver.completed, asked.completed_frame);
+  FlkPlan plan = nullptr;
+  const FlkResult result = flkPlanFrame(view, &asked, &plan);
+  if (planned) *planned = plan;
+  if (result != FLK_SUCCESS) return result;
+  driver.frame = asked.frame_number;
+  driver.pipeline_bound[0] = driver.pipeline_bound[1] = false;
+  const uint64_t allocations = memory.allocations, created = driver.calledOutsideRecording();
+  driver.recording_only = true;
+  flkCmdRender(driver.command_buffer, plan);
+  driver.recording_only = false;
+  EXPECT_EQ(memory.allocations, allocations) << "flkCmdRender allocates";
+  EXPECT_EQ(driver.calledOutsideRecording(), created) << "flkCmdRender calls more than vkCmd...";
+  EXPECT_FALSE(driver.inside_rendering);
+  return result;
+}
+
+testing::AssertionResult Scene::clean() const {
+  if (driver.breaches.empty() && memory.breaches.empty()) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << joined(driver.breaches) << joined(memory.breaches);
+}
+
+testing::AssertionResult Scene::nothingLeft() const {
+  if (const auto result = clean(); !result) return result;
+  if (memory.live() != 0) return testing::AssertionFailure() << memory.live() << " blocks of host memory";
+  if (!driver.leaks().empty()) return testing::AssertionFailure() << driver.leaks();
+  return testing::AssertionSuccess();
+}
+
+FlkPlanInfo infoOf(FlkPlan plan) {
+  FlkPlanInfo info{};
+  EXPECT_EQ(flkPlanGetInfo(plan, &info), FLK_SUCCESS);
+  return info;
+}
+
+std::vector<FlkPassInfo> passesOf(FlkPlan plan) {
+  std::vector<FlkPassInfo> passes(infoOf(plan).pass_count);
+  for (uint32_t i = 0; i < passes.size(); ++i) EXPECT_EQ(flkPlanGetPass(plan, i, &passes[i]), FLK_SUCCESS);
+  return passes;
+}
+
+std::vector<FlkResourceInfo> resourcesOf(FlkPlan plan) {
+  std::vector<FlkResourceInfo> resources(infoOf(plan).resource_count);
+  for (uint32_t i = 0; i < resources.size(); ++i) EXPECT_EQ(flkPlanGetResource(plan, i, &resources[i]), FLK_SUCCESS);
+  return resources;
+}

@@ -1,0 +1,59 @@
+// fuzz_seeds tfx|hair FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by hand.
+#include "asset_invariants.h"
+
+#include <cstdio>
+#include <filesystem>
+
+namespace {
+
+bool put(const std::filesystem::path& path, const std::vector<unsigned char>& bytes) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (!file) return false;
+  const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  return std::fclose(file) == 0 && whole;
+}
+
+void setU32(std::vector<unsigned char>& bytes, size_t at, size_t value) {
+  for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<unsigned char>(value >> (8 * i));
+}
+
+FlkAsset makeAsset(bool equal_counts) {
+  const uint32_t equal[] = {0, 4, 8}, unequal[] = {0, 3, 8};
+  float positions[24], values[8];
+  for (int i = 0; i < 24; ++i) positions[i] = 0.125f * static_cast<float>((i * 7) % 24);
+  for (int i = 0; i < 8; ++i) values[i] = 0.25f * static_cast<float>(i % 4);
+  const FlkStrands strands{FLK_TYPE_STRANDS, nullptr, 2, 8, equal_counts ? equal : unequal, positions, values, values, values};
+  FlkAsset asset = nullptr;
+  flkAssetCreate(&strands, nullptr, &asset);
+  return asset;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  const bool tfx = std::strcmp(argv[1], "tfx") == 0;
+  const std::filesystem::path folder = argv[2];
+  std::filesystem::create_directories(folder);
+  bool written = true;
+  for (const bool equal : {true, false}) {
+    FlkAsset asset = makeAsset(equal);
+    FlkResult result = FLK_SUCCESS;
+    std::vector<unsigned char> bytes = asset_test::saved(asset, tfx ? FLK_FORMAT_TFX : FLK_FORMAT_HAIR, result);
+    flkAssetDestroy(asset);
+    if (result == FLK_ERROR_LIMIT) continue;  // a .tfx file holds no unequal counts
+    const std::string name = equal ? "equal" : "unequal";
+    written = written && result == FLK_SUCCESS && put(folder / name, bytes);
+    if (tfx) {
+      for (const size_t field : {24u, 20u, 28u}) {
+        setU32(bytes, field, bytes.size());
+        bytes.resize(bytes.size() + (field == 24 ? 8 : field == 20 ? 64 : 128));
+      }
+    } else {
+      bytes[12] |= 0x38;
+      bytes.resize(bytes.size() + 8 * (4 + 12 + 8));
+    }
+    written = written && put(folder / (name + "-all-arrays"), bytes);
+  }
+  return written ? 0 : 1;
+}

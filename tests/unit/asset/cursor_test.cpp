@@ -1,0 +1,82 @@
+#include "asset/cursor.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+using forelock::ByteSink;
+using forelock::Cursor;
+
+namespace {
+
+constexpr std::array<std::byte, 10> bytes{std::byte{0x01}, std::byte{0x02}, std::byte{0x03}, std::byte{0x04}, std::byte{0xff},
+                                          std::byte{0xfe}, std::byte{0x00}, std::byte{0x00}, std::byte{0x80}, std::byte{0x40}};
+
+}  // namespace
+
+TEST(Cursor, ReadsLittleEndianAtAnyAlignment) {
+  Cursor cursor(bytes);
+  EXPECT_EQ(cursor.u32(), 0x04030201u);
+  EXPECT_EQ(cursor.u16(), 0xfeffu);
+  EXPECT_EQ(cursor.f32(), 4.0f);
+  EXPECT_EQ(cursor.left(), 0u);
+  EXPECT_FALSE(cursor.failed());
+  Cursor odd(bytes, 3);
+  EXPECT_EQ(odd.u16(), 0xff04u);
+}
+
+TEST(Cursor, NeverLeavesTheSpan) {
+  Cursor cursor(bytes, 8);
+  EXPECT_EQ(cursor.u32(), 0u);
+  EXPECT_TRUE(cursor.failed());
+  EXPECT_EQ(cursor.u16(), 0u) << "stays at the end";
+  EXPECT_EQ(cursor.at(), bytes.size());
+
+  std::array<float, 3> out{1, 2, 3};
+  Cursor floats(bytes, 0);
+  floats.floats(out);
+  EXPECT_TRUE(floats.failed());
+  EXPECT_EQ(out, (std::array<float, 3>{0, 0, 0}));
+  Cursor enough(bytes, 6);
+  enough.floats(std::span(out).first(1));
+  EXPECT_FALSE(enough.failed());
+  EXPECT_EQ(out[0], 4.0f);
+  enough.floats({});
+  EXPECT_FALSE(enough.failed());
+
+  for (const uint64_t offset : {uint64_t{11}, std::numeric_limits<uint64_t>::max()}) {
+    Cursor past(bytes, offset);
+    EXPECT_TRUE(past.failed());
+    EXPECT_EQ(past.left(), 0u);
+    EXPECT_EQ(past.u32(), 0u);
+  }
+  EXPECT_FALSE(Cursor(bytes, 10).failed());
+}
+
+TEST(Cursor, ProvesCountsWithoutOverflow) {
+  const Cursor cursor(bytes, 2);
+  EXPECT_TRUE(cursor.holds(2, 4));
+  EXPECT_FALSE(cursor.holds(3, 4));
+  EXPECT_TRUE(cursor.holds(0, 16));
+  EXPECT_FALSE(cursor.holds(uint64_t{1} << 60, 16));
+  EXPECT_FALSE(cursor.holds(std::numeric_limits<uint64_t>::max(), 2));
+  EXPECT_EQ(forelock::saturatingProduct(uint64_t{1} << 60, 16), std::numeric_limits<uint64_t>::max());
+  EXPECT_EQ(forelock::saturatingProduct(uint64_t{1} << 59, 16), uint64_t{1} << 63);
+  EXPECT_EQ(forelock::saturatingProduct(7, 0), 0u);
+  EXPECT_EQ(forelock::saturatingSum(std::numeric_limits<uint64_t>::max(), 1), std::numeric_limits<uint64_t>::max());
+}
+
+TEST(ByteSink, WritesWhatTheCursorReads) {
+  std::array<std::byte, 10> out{};
+  ByteSink sink(out);
+  sink.u32(0x04030201u);
+  sink.u16(0xfeffu);
+  EXPECT_FALSE(sink.complete());
+  sink.f32(4.0f);
+  EXPECT_TRUE(sink.complete());
+  EXPECT_EQ(out, bytes);
+  sink.u16(7);
+  EXPECT_FALSE(sink.complete()) << "one value too many";
+  EXPECT_EQ(out, bytes);
+}

@@ -17,7 +17,7 @@ usage: sh tests/run.sh [--full] [--no-install]
 Installs the Debian packages that are missing, then
   1. builds everything (Release) in build/ and runs all tests with ctest;
   2. builds the rooms that need no GPU with AddressSanitizer and UBSan in build/sanitize and runs their tests;
-  3. builds the fuzz targets with clang in build/fuzz and runs each for a short while.
+  3. builds the fuzz targets with clang in build/fuzz and runs each for 15 seconds.
 Exits with 0 when all passed. A second run installs and rebuilds nothing. To run less:
   ctest --test-dir build -L LABEL     labels: ctest --test-dir build --print-labels
 
@@ -87,25 +87,12 @@ runTests build/sanitize -R "^($(echo $targets | tr ' ' '|'))\$"
 
 say "3. fuzz targets, $fuzz_seconds s each, in build/fuzz"
 if command -v clang++ >/dev/null 2>&1; then
-  configure build/fuzz -DCMAKE_BUILD_TYPE=RelWithDebInfo -DFORELOCK_FUZZ=ON \
+  configure build/fuzz -DCMAKE_BUILD_TYPE=RelWithDebInfo -DFORELOCK_FUZZ=ON -DFORELOCK_FUZZ_SECONDS="$fuzz_seconds" \
     -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
-  targets=$(targetsOf build/fuzz 'fuzz_[a-z0-9_]*')
-  [ -n "$targets" ] || count "fuzz:no-target" 1
-  [ -z "$targets" ] || build build/fuzz $targets
-  for target in $targets; do
-    say "$target"
-    # What a run finds new is kept, so that the next one starts from there; what breaks is kept beside it.
-    corpus=build/fuzz/corpus/$target
-    mkdir -p "$corpus"
-    seeds=
-    if [ -d "tests/fuzz/seeds/$target" ]; then seeds=tests/fuzz/seeds/$target; fi
-    status=0
-    build/fuzz/"$target" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -max_len=65536 \
-      -print_final_stats=0 -verbosity=0 -artifact_prefix=build/fuzz/"$target"- "$corpus" $seeds || status=$?
-    count "$target" "$status"
-  done
+  build build/fuzz $(targetsOf build/fuzz 'fuzz_[a-z0-9_]*')
+  runTests build/fuzz -L fuzz
 else
-  # Only where packages are not installed by this script: there, no fuzzing is a failure and not a silent pass.
+  # Only where packages are not installed by this script: no fuzzing is a failure there, not a silent pass.
   say "no clang++: the fuzz targets were not run"
   count "fuzz:no-clang" 1
 fi

@@ -18,7 +18,7 @@ namespace {
 // Independent streams of random numbers: what a number is for, as the hash's second argument.
 enum Stream : uint64_t {
   kJitterU, kJitterV, kFeather, kLength, kClumpLength, kHem, kClearance, kFlyaway, kWave, kCurl = kWave + 8,
-  kFrizz = kCurl + 8, kFly = kFrizz + 4, kPull = kFly + 4, kThickness
+  kFrizz = kCurl + 8, kFly = kFrizz + 4, kPull = kFly + 4, kThickness, kParting
 };
 
 double interpolateHairline(const std::vector<HairlinePoint>& line, double azimuth_deg) {
@@ -69,7 +69,8 @@ std::vector<Root> plantRoots(const Recipe& recipe, const Body& body) {
     }
     root.height = smoothStep(-0.5, 0.95, direction.y);
     root.frontness = smoothStep(-0.1, 0.8, direction.z);
-    root.side = root.position.x >= recipe.parting.offset ? 1.0 : -1.0;
+    const double parting = recipe.parting.offset + 0.0025 * noise1(recipe.seed, kParting, root.position.z * 60.0);
+    root.side = root.position.x >= parting ? 1.0 : -1.0;
     roots.push_back(root);
   }
   if (roots.size() < recipe.strands) {

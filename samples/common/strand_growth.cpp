@@ -23,9 +23,12 @@ glm::dvec3 combedDirection(const Recipe& recipe, const Root& root) {
                                                             -recipe.scalp.radii.z * 0.55);
   // The downward part is for the temples, where what points sideways has next to no direction along the skin.
   const glm::dvec3 parted(root.side * recipe.parting.strength, -0.4, -recipe.flow.back);
-  const glm::dvec3 radial = normalizeOr(root.position - whorl, glm::dvec3(0.0, -1.0, 0.0));
+  const glm::dvec3 straight = normalizeOr(root.position - whorl, glm::dvec3(0.0, -1.0, 0.0));
+  const glm::dvec3 radial = straight + glm::cross(root.normal, straight) * 0.6;  // a whorl turns
   const double front = smoothStep(whorl.z - 0.02, whorl.z + 0.04, root.position.z);
-  const glm::dvec3 wanted = parted * front + radial * (1.0 - front);
+  const glm::dvec3 strayed(noise3(recipe.seed, 1001, root.position * 150.0), 0.0,
+                           noise3(recipe.seed, 1002, root.position * 150.0));
+  const glm::dvec3 wanted = parted * front + radial * (1.0 - front) + strayed * 0.35;
   return normalizeOr(wanted - root.normal * glm::dot(wanted, root.normal), glm::dvec3(root.side, 0.0, 0.0));
 }
 

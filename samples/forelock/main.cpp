@@ -47,6 +47,10 @@ int main(int argc, char** argv) {
     if (error.get_exit_code() == 0) {  // --help, --version
       return program.exit(error);
     }
+    if (program.get_subcommands().empty() && argv[1][0] != '-') {
+      std::fprintf(stderr, "forelock: %s is no subcommand; `forelock --help` names them\n", argv[1]);
+      return kUsage;
+    }
     std::string command = "forelock";
     for (const CLI::App* chosen : program.get_subcommands()) {
       command += " " + chosen->get_name();

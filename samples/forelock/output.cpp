@@ -14,11 +14,15 @@ void printMessages(const std::vector<AssetMessage>& messages, bool with_info) {
 }
 
 std::string groupedDigits(uint64_t number) {
-  std::string digits = std::to_string(number);
-  for (size_t end = digits.size(); end > 3; end -= 3) {
-    digits.insert(end - 3, ",");
+  const std::string digits = std::to_string(number);
+  std::string grouped;
+  for (size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) {
+      grouped += ',';
+    }
+    grouped += digits[i];
   }
-  return digits;
+  return grouped;
 }
 
 std::string readableBytes(uint64_t bytes) {

@@ -80,6 +80,27 @@ TEST(Life, assetMayGoBeforeHair) {
   EXPECT_TRUE(scene.nothingLeft());
 }
 
+// A plan lives on when its frame has completed and its hair is gone.
+TEST(Life, planOutlivesHair) {
+  Scene scene;
+  ASSERT_EQ(scene.createContext(), FLK_SUCCESS);
+  const forelock::Asset asset = makeAsset();
+  forelock::Hair hair = scene.createHair(asset);
+  {
+    const forelock::View view = scene.createView();
+    FlkPlan plan = nullptr;
+    ASSERT_EQ(scene.render(view, scene.frame(1, 0, {hair}), &plan), FLK_SUCCESS);
+    const uint64_t bytes = infoOf(plan).bytes_persistent;
+    scene.driver.completed = 1;
+    hair.reset();
+    EXPECT_EQ(infoOf(plan).bytes_persistent, bytes);
+    FlkStatistics statistics;
+    EXPECT_EQ(flkViewGetStatistics(view, 1, &statistics), FLK_SUCCESS);
+  }
+  scene.context.reset();
+  EXPECT_TRUE(scene.nothingLeft());
+}
+
 // The host may hand out device memory itself; then vkAllocateMemory is not called.
 TEST(Life, deviceMemoryFromTheHost) {
   Scene scene;

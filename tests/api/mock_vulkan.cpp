@@ -284,11 +284,31 @@ VKAPI_ATTR VkResult VKAPI_CALL CreateSampler(VkDevice device, const VkSamplerCre
   return createPlain<Kind::Sampler>(device, info, sampler, "vkCreateSampler");
 }
 
+// (set, binding) of every resource that a SPIR-V module declares.
+std::set<std::pair<uint32_t, uint32_t>> bindingsOf(const uint32_t* code, size_t words) {
+  constexpr uint32_t kOpDecorate = 71, kBinding = 33, kDescriptorSet = 34;
+  std::map<uint32_t, uint32_t> sets, bindings;
+  for (size_t at = 5; at < words && code[at] >> 16 != 0; at += code[at] >> 16) {
+    if ((code[at] & 0xFFFF) != kOpDecorate || at + 3 >= words) continue;
+    if (code[at + 2] == kBinding) bindings[code[at + 1]] = code[at + 3];
+    if (code[at + 2] == kDescriptorSet) sets[code[at + 1]] = code[at + 3];
+  }
+  std::set<std::pair<uint32_t, uint32_t>> found;
+  for (const auto& [id, binding] : bindings) found.insert({sets[id], binding});
+  return found;
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL CreateShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
                                                   const VkAllocationCallbacks*, VkShaderModule* module) {
-  if (info->codeSize < 20 || info->codeSize % 4 != 0 || info->pCode[0] != 0x07230203u)
+  const VkResult result = createPlain<Kind::ShaderModule>(device, info, module, "vkCreateShaderModule");
+  if (result != VK_SUCCESS) return result;
+  const size_t words = info->codeSize / 4;
+  if (words < 5 || info->codeSize % 4 != 0 || info->pCode[0] != 0x07230203u) {
     Driver::current().breach("vkCreateShaderModule: not SPIR-V");
-  return createPlain<Kind::ShaderModule>(device, info, module, "vkCreateShaderModule");
+    return result;
+  }
+  reinterpret_cast<Object*>(*module)->reads = bindingsOf(info->pCode, words);
+  return result;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL CreatePipelineCache(VkDevice device, const VkPipelineCacheCreateInfo* info,
@@ -318,8 +338,10 @@ VkResult makePipeline(VkPipelineLayout layout, const VkPipelineShaderStageCreate
   *pipeline = VK_NULL_HANDLE;
   if (driver.refuse(name, &result)) return result;
   Object* layout_object = driver.known(layout, Kind::PipelineLayout, name);
-  for (uint32_t i = 0; i < stage_count; ++i) driver.known(stages[i].module, Kind::ShaderModule, name);
   Object* object = driver.make(Kind::Pipeline);
+  for (uint32_t i = 0; i < stage_count; ++i)
+    if (const Object* module = driver.known(stages[i].module, Kind::ShaderModule, name))
+      object->reads.insert(module->reads.begin(), module->reads.end());
   object->bind_point = bind_point;
   object->uses = {layout_object};
   *pipeline = handleOf<VkPipeline>(object);
@@ -590,10 +612,10 @@ VKAPI_ATTR void VKAPI_CALL CmdBindPipeline(VkCommandBuffer cmd, VkPipelineBindPo
   Command& command = recordWith(cmd, "vkCmdBindPipeline", pipeline, Kind::Pipeline, false, true);
   if (!command.objects.empty() && command.objects[0]->bind_point != point)
     Driver::current().breach("vkCmdBindPipeline: wrong bind point");
-  if (point <= VK_PIPELINE_BIND_POINT_COMPUTE) Driver::current().pipeline_bound[point] = true;
+  if (!command.objects.empty()) Driver::current().bound_pipelines[command.objects[0]->bind_point] = command.objects[0];
 }
 
-VKAPI_ATTR void VKAPI_CALL CmdBindDescriptorSets(VkCommandBuffer cmd, VkPipelineBindPoint, VkPipelineLayout layout, uint32_t first,
+VKAPI_ATTR void VKAPI_CALL CmdBindDescriptorSets(VkCommandBuffer cmd, VkPipelineBindPoint point, VkPipelineLayout layout, uint32_t first,
                                                  uint32_t count, const VkDescriptorSet* sets, uint32_t, const uint32_t*) {
   Driver& driver = Driver::current();
   Command& command = recordWith(cmd, "vkCmdBindDescriptorSets", layout, Kind::PipelineLayout, false, true);
@@ -601,6 +623,7 @@ VKAPI_ATTR void VKAPI_CALL CmdBindDescriptorSets(VkCommandBuffer cmd, VkPipeline
   for (uint32_t i = 0; i < count; ++i)
     if (Object* set = driver.known(sets[i], Kind::DescriptorSet, "vkCmdBindDescriptorSets")) {
       driver.use(set);
+      driver.bound_sets[point][first + i] = set;
       command.objects.push_back(set);
     }
 }
@@ -610,30 +633,44 @@ VKAPI_ATTR void VKAPI_CALL CmdPushConstants(VkCommandBuffer cmd, VkPipelineLayou
   recordWith(cmd, "vkCmdPushConstants", layout, Kind::PipelineLayout, false, true).numbers = {offset, size};
 }
 
-void needPipeline(VkPipelineBindPoint point, const char* name) {
-  if (!Driver::current().pipeline_bound[point]) Driver::current().breach(std::string(name) + ": no pipeline is bound");
+// A draw or dispatch uses what its pipeline declares of the sets that are bound; bindings that it does not declare may be stale.
+void useBound(VkPipelineBindPoint point, const char* name) {
+  Driver& driver = Driver::current();
+  const Object* pipeline = driver.bound_pipelines[point];
+  if (!pipeline) return driver.breach(std::string(name) + ": no pipeline is bound");
+  for (const auto& [set_number, binding] : pipeline->reads) {
+    const auto set = driver.bound_sets[point].find(set_number);
+    const std::string place = " (set " + std::to_string(set_number) + ", binding " + std::to_string(binding) + ")";
+    if (set == driver.bound_sets[point].end()) {
+      driver.breach(std::string(name) + ": no set is bound" + place);
+      continue;
+    }
+    const auto resource = set->second->bindings.find({binding, 0});
+    if (resource == set->second->bindings.end()) driver.breach(std::string(name) + ": nothing was written to" + place);
+    else driver.use(resource->second);
+  }
 }
 
 VKAPI_ATTR void VKAPI_CALL CmdDispatch(VkCommandBuffer cmd, uint32_t x, uint32_t y, uint32_t z) {
   Driver& driver = Driver::current();
-  needPipeline(VK_PIPELINE_BIND_POINT_COMPUTE, "vkCmdDispatch");
+  useBound(VK_PIPELINE_BIND_POINT_COMPUTE, "vkCmdDispatch");
   driver.record(cmd, "vkCmdDispatch", false).numbers = {x, y, z};
   const uint32_t* limit = driver.claims.properties.limits.maxComputeWorkGroupCount;
   if (x > limit[0] || y > limit[1] || z > limit[2]) driver.breach("vkCmdDispatch: too many groups");
 }
 
 VKAPI_ATTR void VKAPI_CALL CmdDispatchIndirect(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset) {
-  needPipeline(VK_PIPELINE_BIND_POINT_COMPUTE, "vkCmdDispatchIndirect");
+  useBound(VK_PIPELINE_BIND_POINT_COMPUTE, "vkCmdDispatchIndirect");
   recordWith(cmd, "vkCmdDispatchIndirect", buffer, Kind::Buffer, false).numbers = {offset};
 }
 
 VKAPI_ATTR void VKAPI_CALL CmdDraw(VkCommandBuffer cmd, uint32_t vertices, uint32_t instances, uint32_t, uint32_t) {
-  needPipeline(VK_PIPELINE_BIND_POINT_GRAPHICS, "vkCmdDraw");
+  useBound(VK_PIPELINE_BIND_POINT_GRAPHICS, "vkCmdDraw");
   Driver::current().record(cmd, "vkCmdDraw", true).numbers = {vertices, instances};
 }
 
 VKAPI_ATTR void VKAPI_CALL CmdDrawIndexed(VkCommandBuffer cmd, uint32_t indices, uint32_t instances, uint32_t, int32_t, uint32_t) {
-  needPipeline(VK_PIPELINE_BIND_POINT_GRAPHICS, "vkCmdDrawIndexed");
+  useBound(VK_PIPELINE_BIND_POINT_GRAPHICS, "vkCmdDrawIndexed");
   Driver::current().record(cmd, "vkCmdDrawIndexed", true).numbers = {indices, instances};
 }
 
@@ -977,14 +1014,21 @@ void Driver::checkDevice(VkDevice handle, const char* by) {
   if (handle != device) breach(std::string(by) + ": not the host's device");
 }
 
-// What an object uses is used with it: sets their resources, views their image, resources their memory.
+// What an object uses is used with it: views their image, resources their memory.
 void Driver::use(Object* object) {
   if (!object) return;
   if (!object->alive) breach(std::string("a ") + kindName(object->kind) + " is used after it was destroyed");
   object->last_frame = std::max(object->last_frame, frame);
   if (object->memory) use(object->memory);
   for (Object* part : object->uses) use(part);
-  for (const auto& [place, resource] : object->bindings) use(resource);
+}
+
+void Driver::beginCommandBuffer() {
+  inside_rendering = false;
+  for (int point = 0; point < 2; ++point) {
+    bound_pipelines[point] = nullptr;
+    bound_sets[point].clear();
+  }
 }
 
 void Driver::destroy(const void* handle, Kind kind, const char* by) {

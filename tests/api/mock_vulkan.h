@@ -43,6 +43,7 @@ struct Object {
   uint32_t sets_left = 0;
   std::vector<VkDescriptorSetLayoutBinding> layout;          // set layout; descriptor set: its layout
   VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  std::set<std::pair<uint32_t, uint32_t>> reads;             // shader module, pipeline: (set, binding) of its interface
   std::vector<int> query_states;                             // 0 never reset, 1 reset, 2 written
   std::vector<uint64_t> query_values;
 };
@@ -126,8 +127,11 @@ public:
   void destroy(const void* handle, Kind kind, const char* by);
   Command& record(VkCommandBuffer cmd, const char* name, bool wanted_inside, bool allowed_both = false);
 
+  // State of the command buffer, by bind point (graphics, compute).
   bool inside_rendering = false;
-  bool pipeline_bound[2] = {false, false};
+  Object* bound_pipelines[2] = {nullptr, nullptr};
+  std::map<uint32_t, Object*> bound_sets[2];
+  void beginCommandBuffer();  // as vkBeginCommandBuffer: nothing is bound
 
 private:
   std::vector<std::unique_ptr<Object>> objects_;

@@ -147,6 +147,24 @@ TEST_F(Pool, pictureBeyondWhatCanBeBound) {
   finish(view);
 }
 
+// One short strand that is a speck on the screen: an estimate below one fragment still needs a list.
+TEST_F(Pool, speckFarAway) {
+  const forelock::Asset strand = makeAsset(1);
+  forelock::Hair speck = scene.createHair(strand);
+  forelock::View view = scene.createView(1);
+  for (number = 1; number <= 3; ++number) {
+    FlkFrame frame = scene.frame(number, number - 1, {speck});
+    frame.view_from_world[14] = -500.0;
+    FlkPlan plan = nullptr;
+    ASSERT_EQ(scene.render(view, frame, &plan), FLK_SUCCESS) << scene.last_message;
+    if (infoOf(plan).pass_count > 0) { EXPECT_GT(infoOf(plan).node_capacity, 0u); }
+  }
+  EXPECT_TRUE(scene.clean());
+  scene.driver.completed = number;
+  speck.reset();
+  finish(view);
+}
+
 // A count of nothing (all hidden behind the scene) is a count, and growth from it works.
 TEST_F(Pool, hiddenAndSeenAgain) {
   forelock::View view = scene.createView(2);

@@ -125,7 +125,7 @@ FlkResult Scene::render(FlkView view, const FlkFrame& asked, FlkPlan* planned) {
   if (planned) *planned = plan;
   if (result != FLK_SUCCESS) return result;
   driver.frame = asked.frame_number;
-  driver.pipeline_bound[0] = driver.pipeline_bound[1] = false;
+  driver.beginCommandBuffer();
   const uint64_t allocations = memory.allocations, created = driver.calledOutsideRecording();
   driver.recording_only = true;
   flkCmdRender(driver.command_buffer, plan);

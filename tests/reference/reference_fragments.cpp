@@ -194,6 +194,7 @@ std::vector<double> renderCover(const Scene& scene, const Camera& camera, int sa
       const ScreenSegment& s = segments[index];
       const Material& material = scene.hairs[s.hair].material;
       forEachCell(s.plane.corner, last * samples, row_begin, row_begin + samples, [&](int column, int row) {
+        if (size_t(column) < skip) return;  // the edge of an immense quad rounds by more than a pixel
         const Placed at = place(s.plane, column, row);
         if (std::fabs(at.x) > mix(s.plane.h_a, s.plane.h_b, at.v)) return;
         const double fraction = mix(s.fraction_a, s.fraction_b, along(s, at.v, perspective).u);

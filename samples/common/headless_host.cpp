@@ -1,0 +1,504 @@
+#include "headless_host.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace forelock::samples {
+namespace {
+
+#define HOST_INSTANCE_FUNCTIONS(X)                                                                                     \
+  X(vkDestroyInstance) X(vkEnumeratePhysicalDevices) X(vkGetPhysicalDeviceProperties2) X(vkGetPhysicalDeviceFeatures2) \
+  X(vkGetPhysicalDeviceQueueFamilyProperties) X(vkGetPhysicalDeviceMemoryProperties) X(vkCreateDevice) X(vkGetDeviceProcAddr)
+#define HOST_DEVICE_FUNCTIONS(X)                                                                                       \
+  X(vkDestroyDevice) X(vkGetDeviceQueue) X(vkCreateCommandPool) X(vkDestroyCommandPool) X(vkAllocateCommandBuffers)    \
+  X(vkBeginCommandBuffer) X(vkEndCommandBuffer) X(vkResetCommandPool) X(vkQueueSubmit2) X(vkCreateFence)               \
+  X(vkDestroyFence) X(vkWaitForFences) X(vkResetFences) X(vkDeviceWaitIdle) X(vkCreateImage) X(vkDestroyImage)         \
+  X(vkCreateImageView) X(vkDestroyImageView) X(vkGetImageMemoryRequirements) X(vkBindImageMemory) X(vkCreateBuffer)    \
+  X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) X(vkAllocateMemory) X(vkFreeMemory)        \
+  X(vkMapMemory) X(vkCmdPipelineBarrier2) X(vkCmdCopyBufferToImage) X(vkCmdCopyImageToBuffer) X(vkCmdClearColorImage)
+
+struct Functions {
+#define HOST_DECLARE(name) PFN_##name name = nullptr;
+  HOST_INSTANCE_FUNCTIONS(HOST_DECLARE)
+  HOST_DEVICE_FUNCTIONS(HOST_DECLARE)
+#undef HOST_DECLARE
+};
+
+struct HostImage {
+  VkImage image = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+};
+
+struct HostBuffer {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  void* mapped = nullptr;
+  VkDeviceSize size = 0;
+};
+
+float halfToFloat(uint16_t half) {
+  const uint32_t sign = uint32_t(half & 0x8000u) << 16, exponent = half >> 10 & 31u, mantissa = half & 1023u;
+  if (exponent == 0) return std::bit_cast<float>(sign | 0x3F800000u) * std::ldexp(float(mantissa), -24);
+  if (exponent == 31) return std::bit_cast<float>(sign | 0x7F800000u | mantissa << 13);
+  return std::bit_cast<float>(sign | (exponent + 112) << 23 | mantissa << 13);
+}
+
+// Round to nearest even; beyond the range to the largest.
+uint16_t floatToHalf(float value) {
+  const uint32_t bits = std::bit_cast<uint32_t>(value);
+  const uint16_t sign = uint16_t(bits >> 16 & 0x8000u);
+  const float magnitude = std::abs(value);
+  if (!(magnitude < 65504.0f)) return uint16_t(sign | (std::isnan(value) ? 0x7E00u : 0x7BFFu));
+  if (magnitude < 6.103515625e-5f) return uint16_t(sign | uint16_t(std::nearbyint(std::ldexp(magnitude, 24))));
+  const uint32_t m = std::bit_cast<uint32_t>(magnitude) - 0x38000000u;
+  return uint16_t(sign | (m + 0x0FFFu + (m >> 13 & 1u)) >> 13);
+}
+
+constexpr VkImageSubresourceRange kColorRange{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+constexpr VkImageSubresourceRange kDepthRange{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+
+int preference(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
+    default: return 3;
+  }
+}
+
+}  // namespace
+
+struct HeadlessHost::Impl {
+  void* loader = nullptr;
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+  PFN_vkDestroyDebugUtilsMessengerEXT destroy_messenger = nullptr;
+  Functions fn;
+  VkInstance instance = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+  VkPhysicalDeviceMemoryProperties memory{};
+  VkPhysicalDeviceType type{};
+  VkDevice device = VK_NULL_HANDLE;
+  uint32_t family = 0;
+  VkQueue queue = VK_NULL_HANDLE;
+  VkCommandPool pool = VK_NULL_HANDLE;
+  VkCommandBuffer cmd = VK_NULL_HANDLE;
+  VkFence fence = VK_NULL_HANDLE;
+  FlkContext context = nullptr;
+  std::string device_name, driver_name;
+  std::vector<std::string> validation, messages;
+
+  uint32_t width = 0, height = 0;
+  HostImage color, depth;
+  HostBuffer transfer;
+  std::vector<float> background, depth_values;
+  bool depth_changed = false;
+  uint64_t frame = 0;
+
+  ~Impl() { destroy(); }
+  void destroy();
+  bool createInstance(bool with_validation, std::string& error);
+  bool createDevice(const std::string& wanted, std::string& error);
+  uint32_t memoryType(uint32_t bits, VkMemoryPropertyFlags flags) const;
+  bool createImage(VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect, HostImage& image);
+  void destroyImage(HostImage& image);
+  bool ensureTransfer(VkDeviceSize size);
+  void transition(VkImage image, const VkImageSubresourceRange& range, VkImageLayout from, VkImageLayout to) const;
+  void uploadImage(const HostImage& image, const VkImageSubresourceRange& range, VkImageLayout to) const;
+};
+
+namespace {
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                            const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  static_cast<std::vector<std::string>*>(user)->push_back(data->pMessage);
+  return VK_FALSE;
+}
+
+void onMessage(void* user, const FlkMessage* message) {
+  static_cast<std::vector<std::string>*>(user)->push_back(std::string(message->id) + ": " + message->text);
+}
+
+}  // namespace
+
+bool HeadlessHost::Impl::createInstance(bool with_validation, std::string& error) {
+  loader = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+  if (!loader) return error = "there is no Vulkan loader (libvulkan.so.1): install libvulkan1 and a driver", false;
+  get_instance_proc_addr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(loader, "vkGetInstanceProcAddr"));
+  if (!get_instance_proc_addr) return error = "libvulkan.so.1 is no Vulkan loader", false;
+  const auto create = reinterpret_cast<PFN_vkCreateInstance>(get_instance_proc_addr(nullptr, "vkCreateInstance"));
+
+  VkApplicationInfo application{};
+  application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+  application.pApplicationName = "forelock";
+  application.apiVersion = VK_API_VERSION_1_3;
+  const char* layer = "VK_LAYER_KHRONOS_validation";
+  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  const VkValidationFeatureEnableEXT enabled = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  VkValidationFeaturesEXT features{};
+  features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+  features.enabledValidationFeatureCount = 1;
+  features.pEnabledValidationFeatures = &enabled;
+  VkDebugUtilsMessengerCreateInfoEXT debug{};
+  debug.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+  debug.pNext = &features;
+  debug.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  debug.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  debug.pfnUserCallback = onValidation;
+  debug.pUserData = &validation;
+  VkInstanceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+  info.pApplicationInfo = &application;
+  if (with_validation) {
+    info.pNext = &debug;
+    info.enabledLayerCount = info.enabledExtensionCount = 1;
+    info.ppEnabledLayerNames = &layer;
+    info.ppEnabledExtensionNames = &extension;
+  }
+  if (create(&info, nullptr, &instance) != VK_SUCCESS)
+    return error = with_validation ? "no Vulkan instance with validation layers: install vulkan-validationlayers" : "no Vulkan instance: is a driver installed?", false;
+#define HOST_LOAD(name) fn.name = reinterpret_cast<PFN_##name>(get_instance_proc_addr(instance, #name));
+  HOST_INSTANCE_FUNCTIONS(HOST_LOAD)
+#undef HOST_LOAD
+  if (with_validation) {
+    debug.pNext = nullptr;
+    const auto create_messenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(get_instance_proc_addr(instance, "vkCreateDebugUtilsMessengerEXT"));
+    destroy_messenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(get_instance_proc_addr(instance, "vkDestroyDebugUtilsMessengerEXT"));
+    if (!create_messenger || create_messenger(instance, &debug, nullptr, &messenger) != VK_SUCCESS) return error = "no debug messenger", false;
+  }
+  return true;
+}
+
+bool HeadlessHost::Impl::createDevice(const std::string& wanted, std::string& error) {
+  FlkRequirements need{};
+  flkGetRequirements(&need);
+  uint32_t count = 0;
+  fn.vkEnumeratePhysicalDevices(instance, &count, nullptr);
+  std::vector<VkPhysicalDevice> devices(count);
+  fn.vkEnumeratePhysicalDevices(instance, &count, devices.data());
+  std::string found;
+  int best = 100;
+  for (VkPhysicalDevice candidate : devices) {
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &driver;
+    fn.vkGetPhysicalDeviceProperties2(candidate, &properties);
+    const std::string name = properties.properties.deviceName;
+    found += (found.empty() ? "" : ", ") + name;
+    if (properties.properties.apiVersion < need.api_version) continue;
+    if (!wanted.empty() && name.find(wanted) == std::string::npos) continue;
+    uint32_t families = 0;
+    fn.vkGetPhysicalDeviceQueueFamilyProperties(candidate, &families, nullptr);
+    std::vector<VkQueueFamilyProperties> family_properties(families);
+    fn.vkGetPhysicalDeviceQueueFamilyProperties(candidate, &families, family_properties.data());
+    for (uint32_t i = 0; i < families; ++i) {
+      if ((family_properties[i].queueFlags & need.queue_flags) != need.queue_flags) continue;
+      const int rank = preference(properties.properties.deviceType);
+      if (rank >= best) break;
+      best = rank;
+      physical_device = candidate;
+      family = i;
+      type = properties.properties.deviceType;
+      device_name = name;
+      driver_name = std::string(driver.driverName) + " " + driver.driverInfo;
+      break;
+    }
+  }
+  if (!physical_device) return error = "no Vulkan 1.3 device" + (wanted.empty() ? std::string() : " named " + wanted) + "; found: " + (found.empty() ? "none" : found), false;
+
+  const float priority = 1;
+  VkDeviceQueueCreateInfo queue_info{};
+  queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue_info.queueFamilyIndex = family;
+  queue_info.queueCount = 1;
+  queue_info.pQueuePriorities = &priority;
+  need.features12.pNext = &need.features13;
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.pNext = &need.features12;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue_info;
+  info.pEnabledFeatures = &need.features;
+  if (fn.vkCreateDevice(physical_device, &info, nullptr, &device) != VK_SUCCESS) return error = device_name + " lacks a feature that Forelock needs", false;
+#define HOST_LOAD(name) fn.name = reinterpret_cast<PFN_##name>(fn.vkGetDeviceProcAddr(device, #name));
+  HOST_DEVICE_FUNCTIONS(HOST_LOAD)
+#undef HOST_LOAD
+  fn.vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
+  fn.vkGetDeviceQueue(device, family, 0, &queue);
+  VkCommandPoolCreateInfo pool_info{};
+  pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+  pool_info.queueFamilyIndex = family;
+  VkFenceCreateInfo fence_info{};
+  fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+  VkCommandBufferAllocateInfo allocate{};
+  allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+  allocate.commandBufferCount = 1;
+  if (fn.vkCreateCommandPool(device, &pool_info, nullptr, &pool) != VK_SUCCESS || fn.vkCreateFence(device, &fence_info, nullptr, &fence) != VK_SUCCESS)
+    return error = "no memory for a command pool", false;
+  allocate.commandPool = pool;
+  if (fn.vkAllocateCommandBuffers(device, &allocate, &cmd) != VK_SUCCESS) return error = "no memory for a command buffer", false;
+
+  FlkContextDesc desc{};
+  desc.type = FLK_TYPE_CONTEXT;
+  desc.instance = instance;
+  desc.physical_device = physical_device;
+  desc.device = device;
+  desc.get_instance_proc_addr = get_instance_proc_addr;
+  desc.queue_family = family;
+  desc.message = onMessage;
+  desc.message_user = &messages;
+  if (flkContextCreate(&desc, &context) != FLK_SUCCESS) return error = messages.empty() ? "flkContextCreate failed" : messages.back(), false;
+  return true;
+}
+
+void HeadlessHost::Impl::destroy() {
+  if (device) {
+    fn.vkDeviceWaitIdle(device);
+    flkContextDestroy(context);
+    destroyImage(color);
+    destroyImage(depth);
+    if (transfer.buffer) fn.vkDestroyBuffer(device, transfer.buffer, nullptr), fn.vkFreeMemory(device, transfer.memory, nullptr);
+    if (fence) fn.vkDestroyFence(device, fence, nullptr);
+    if (pool) fn.vkDestroyCommandPool(device, pool, nullptr);
+    fn.vkDestroyDevice(device, nullptr);
+  }
+  if (messenger) destroy_messenger(instance, messenger, nullptr);
+  if (instance && fn.vkDestroyInstance) fn.vkDestroyInstance(instance, nullptr);
+  if (loader) dlclose(loader);
+}
+
+uint32_t HeadlessHost::Impl::memoryType(uint32_t bits, VkMemoryPropertyFlags flags) const {
+  for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+    if ((bits >> i & 1) && (memory.memoryTypes[i].propertyFlags & flags) == flags) return i;
+  return 0;
+}
+
+bool HeadlessHost::Impl::createImage(VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect, HostImage& image) {
+  VkImageCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+  info.imageType = VK_IMAGE_TYPE_2D;
+  info.format = format;
+  info.extent = {width, height, 1};
+  info.mipLevels = info.arrayLayers = 1;
+  info.samples = VK_SAMPLE_COUNT_1_BIT;
+  info.usage = usage;
+  if (fn.vkCreateImage(device, &info, nullptr, &image.image) != VK_SUCCESS) return false;
+  VkMemoryRequirements requirements{};
+  fn.vkGetImageMemoryRequirements(device, image.image, &requirements);
+  VkMemoryAllocateInfo allocate{};
+  allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  allocate.allocationSize = requirements.size;
+  allocate.memoryTypeIndex = memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  if (fn.vkAllocateMemory(device, &allocate, nullptr, &image.memory) != VK_SUCCESS) return false;
+  VkImageViewCreateInfo view{};
+  view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+  view.image = image.image;
+  view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  view.format = format;
+  view.subresourceRange = {aspect, 0, 1, 0, 1};
+  return fn.vkBindImageMemory(device, image.image, image.memory, 0) == VK_SUCCESS && fn.vkCreateImageView(device, &view, nullptr, &image.view) == VK_SUCCESS;
+}
+
+void HeadlessHost::Impl::destroyImage(HostImage& image) {
+  if (image.view) fn.vkDestroyImageView(device, image.view, nullptr);
+  if (image.image) fn.vkDestroyImage(device, image.image, nullptr);
+  if (image.memory) fn.vkFreeMemory(device, image.memory, nullptr);
+  image = {};
+}
+
+bool HeadlessHost::Impl::ensureTransfer(VkDeviceSize size) {
+  if (transfer.size >= size) return true;
+  if (transfer.buffer) fn.vkDestroyBuffer(device, transfer.buffer, nullptr), fn.vkFreeMemory(device, transfer.memory, nullptr);
+  transfer = {};
+  VkBufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  info.size = size;
+  info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  if (fn.vkCreateBuffer(device, &info, nullptr, &transfer.buffer) != VK_SUCCESS) return false;
+  VkMemoryRequirements requirements{};
+  fn.vkGetBufferMemoryRequirements(device, transfer.buffer, &requirements);
+  VkMemoryAllocateInfo allocate{};
+  allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  allocate.allocationSize = requirements.size;
+  allocate.memoryTypeIndex = memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+  if (fn.vkAllocateMemory(device, &allocate, nullptr, &transfer.memory) != VK_SUCCESS) return false;
+  transfer.size = size;
+  return fn.vkBindBufferMemory(device, transfer.buffer, transfer.memory, 0) == VK_SUCCESS &&
+         fn.vkMapMemory(device, transfer.memory, 0, VK_WHOLE_SIZE, 0, &transfer.mapped) == VK_SUCCESS;
+}
+
+// Everything before, everything after: a test host may wait.
+void HeadlessHost::Impl::transition(VkImage image, const VkImageSubresourceRange& range, VkImageLayout from, VkImageLayout to) const {
+  VkImageMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+  barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  barrier.oldLayout = from;
+  barrier.newLayout = to;
+  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image;
+  barrier.subresourceRange = range;
+  VkDependencyInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  info.imageMemoryBarrierCount = 1;
+  info.pImageMemoryBarriers = &barrier;
+  fn.vkCmdPipelineBarrier2(cmd, &info);
+}
+
+void HeadlessHost::Impl::uploadImage(const HostImage& image, const VkImageSubresourceRange& range, VkImageLayout to) const {
+  transition(image.image, range, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  VkBufferImageCopy region{};
+  region.imageSubresource = {range.aspectMask, 0, 0, 1};
+  region.imageExtent = {width, height, 1};
+  fn.vkCmdCopyBufferToImage(cmd, transfer.buffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+  transition(image.image, range, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, to);
+}
+
+HeadlessHost::HeadlessHost() : impl_(std::make_unique<Impl>()) {}
+HeadlessHost::~HeadlessHost() = default;
+
+std::unique_ptr<HeadlessHost> HeadlessHost::create(const HeadlessOptions& options, std::string& error) {
+  std::unique_ptr<HeadlessHost> host(new HeadlessHost);
+  if (!host->impl_->createInstance(options.validation, error) || !host->impl_->createDevice(options.device_name, error)) return nullptr;
+  return host;
+}
+
+const std::string& HeadlessHost::deviceName() const { return impl_->device_name; }
+const std::string& HeadlessHost::driverName() const { return impl_->driver_name; }
+VkPhysicalDeviceType HeadlessHost::deviceType() const { return impl_->type; }
+FlkContext HeadlessHost::context() const { return impl_->context; }
+std::vector<std::string>& HeadlessHost::validationMessages() { return impl_->validation; }
+std::vector<std::string>& HeadlessHost::messages() { return impl_->messages; }
+
+bool HeadlessHost::resize(uint32_t width, uint32_t height) {
+  Impl& i = *impl_;
+  i.destroyImage(i.color);
+  i.destroyImage(i.depth);
+  i.width = width, i.height = height;
+  i.background.clear();
+  i.depth_values.clear();
+  return i.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                       VK_IMAGE_ASPECT_COLOR_BIT, i.color) &&
+         i.createImage(VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, i.depth);
+}
+
+void HeadlessHost::setBackground(std::vector<float> rgba) { impl_->background = std::move(rgba); }
+
+void HeadlessHost::setDepth(std::vector<float> values) {
+  impl_->depth_values = std::move(values);
+  impl_->depth_changed = true;
+}
+
+bool HeadlessHost::submit(const std::function<void(VkCommandBuffer)>& record) {
+  Impl& i = *impl_;
+  VkCommandBufferBeginInfo begin{};
+  begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  if (i.fn.vkResetCommandPool(i.device, i.pool, 0) != VK_SUCCESS || i.fn.vkBeginCommandBuffer(i.cmd, &begin) != VK_SUCCESS) return false;
+  record(i.cmd);
+  VkCommandBufferSubmitInfo buffer{};
+  buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+  buffer.commandBuffer = i.cmd;
+  VkSubmitInfo2 info{};
+  info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+  info.commandBufferInfoCount = 1;
+  info.pCommandBufferInfos = &buffer;
+  return i.fn.vkEndCommandBuffer(i.cmd) == VK_SUCCESS && i.fn.vkQueueSubmit2(i.queue, 1, &info, i.fence) == VK_SUCCESS &&
+         i.fn.vkWaitForFences(i.device, 1, &i.fence, VK_TRUE, UINT64_MAX) == VK_SUCCESS && i.fn.vkResetFences(i.device, 1, &i.fence) == VK_SUCCESS;
+}
+
+FlkResult HeadlessHost::createHair(const FlkHairDesc& desc, FlkHair* hair) {
+  FlkResult result = flkHairCreate(impl_->context, &desc, hair);
+  if (result != FLK_SUCCESS) return result;
+  if (!submit([&](VkCommandBuffer cmd) { result = flkCmdUpload(cmd, *hair); })) result = FLK_ERROR_DEVICE_LOST;
+  flkHairReleaseStaging(*hair);
+  return result;
+}
+
+FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned) {
+  Impl& i = *impl_;
+  frame.type = FLK_TYPE_FRAME;
+  frame.frame_number = i.frame + 1;
+  frame.completed_frame = i.frame;
+  frame.target = {i.color.image, i.color.view, VK_FORMAT_R16G16B16A16_SFLOAT, VK_SAMPLE_COUNT_1_BIT, kColorRange, i.width, i.height,
+                  {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                  {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT}};
+  frame.depth = {};
+  const bool with_depth = !i.depth_values.empty();
+  if (with_depth)
+    frame.depth = {i.depth.image, i.depth.view, VK_FORMAT_D32_SFLOAT, VK_SAMPLE_COUNT_1_BIT, kDepthRange, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
+                   VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+  FlkPlan plan = nullptr;
+  const FlkResult result = flkPlanFrame(view, &frame, &plan);
+  if (result != FLK_SUCCESS) return result;
+  i.frame += 1;
+
+  const std::size_t pixels = std::size_t(i.width) * i.height;
+  if (!i.ensureTransfer(pixels * 8)) return FLK_ERROR_OUT_OF_DEVICE_MEMORY;
+  if (with_depth && i.depth_changed) {
+    std::memcpy(i.transfer.mapped, i.depth_values.data(), std::min(pixels, i.depth_values.size()) * 4);
+    if (!submit([&](VkCommandBuffer) { i.uploadImage(i.depth, kDepthRange, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL); })) return FLK_ERROR_DEVICE_LOST;
+    i.depth_changed = false;
+  }
+  if (!i.background.empty()) {
+    auto* half = static_cast<uint16_t*>(i.transfer.mapped);
+    for (std::size_t c = 0; c < std::min(pixels * 4, i.background.size()); ++c) half[c] = floatToHalf(i.background[c]);
+  }
+  const bool drawn = submit([&](VkCommandBuffer cmd) {
+    if (i.background.empty()) {
+      const VkClearColorValue transparent{};
+      i.transition(i.color.image, kColorRange, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+      i.fn.vkCmdClearColorImage(cmd, i.color.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &transparent, 1, &kColorRange);
+    } else {
+      i.uploadImage(i.color, kColorRange, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    }
+    flkCmdRender(cmd, plan);
+  });
+  if (planned) *planned = plan;
+  return drawn ? FLK_SUCCESS : FLK_ERROR_DEVICE_LOST;
+}
+
+FlkResult HeadlessHost::statistics(FlkView view, FlkStatistics& statistics) const { return flkViewGetStatistics(view, impl_->frame, &statistics); }
+
+std::vector<float> HeadlessHost::readColor() {
+  Impl& i = *impl_;
+  const std::size_t values = std::size_t(i.width) * i.height * 4;
+  std::vector<float> rgba(values);
+  if (!i.ensureTransfer(values * 2)) return {};
+  submit([&](VkCommandBuffer cmd) {
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {i.width, i.height, 1};
+    i.fn.vkCmdCopyImageToBuffer(cmd, i.color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1, &region);
+  });
+  const auto* half = static_cast<const uint16_t*>(i.transfer.mapped);
+  std::transform(half, half + values, rgba.begin(), halfToFloat);
+  return rgba;
+}
+
+std::vector<float> HeadlessHost::readDepthImage(VkImage image, uint32_t size) {
+  Impl& i = *impl_;
+  const std::size_t values = std::size_t(size) * size;
+  std::vector<float> depth(values);
+  if (!i.ensureTransfer(values * 4)) return {};
+  submit([&](VkCommandBuffer cmd) {
+    i.transition(image, kDepthRange, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
+    region.imageExtent = {size, size, 1};
+    i.fn.vkCmdCopyImageToBuffer(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1, &region);
+    i.transition(image, kDepthRange, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  });
+  std::memcpy(depth.data(), i.transfer.mapped, values * 4);
+  return depth;
+}
+
+}  // namespace forelock::samples

@@ -1,0 +1,63 @@
+// A host engine without a window: instance, device, one queue, a colour and a depth image; draws frames and reads them back.
+// What the command, the study and the GPU tests render with. The Vulkan loader is opened at run time, so that programs start
+// where there is none.
+#pragma once
+
+#include "forelock/render.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace forelock::samples {
+
+struct HeadlessOptions {
+  bool validation = false;   // core and synchronization validation; messages are collected
+  std::string device_name;   // part of the device's name; empty: a discrete GPU, else any other, else a CPU device
+};
+
+class HeadlessHost {
+public:
+  // Null with the reason in `error`.
+  static std::unique_ptr<HeadlessHost> create(const HeadlessOptions& options, std::string& error);
+  ~HeadlessHost();
+  HeadlessHost(const HeadlessHost&) = delete;
+  HeadlessHost& operator=(const HeadlessHost&) = delete;
+
+  const std::string& deviceName() const;
+  const std::string& driverName() const;
+  VkPhysicalDeviceType deviceType() const;
+  FlkContext context() const;
+  // What the validation layers and Forelock's message callback have said.
+  std::vector<std::string>& validationMessages();
+  std::vector<std::string>& messages();
+
+  // Images for frames of this size. False: no device memory.
+  bool resize(uint32_t width, uint32_t height);
+  // What hair is drawn over: width x height x RGBA, linear, premultiplied; empty: transparent black.
+  void setBackground(std::vector<float> rgba);
+  // The opaque scene's depth buffer values; empty: no depth source.
+  void setDepth(std::vector<float> values);
+
+  // Creates a hair and uploads it, waiting.
+  FlkResult createHair(const FlkHairDesc& desc, FlkHair* hair);
+
+  // Fills in target, depth, frame_number and completed_frame, plans, records, submits and waits. The plan stays valid until
+  // the view has made frames_in_flight more.
+  FlkResult render(FlkView view, FlkFrame& frame, FlkPlan* plan = nullptr);
+  FlkResult statistics(FlkView view, FlkStatistics& statistics) const;
+
+  std::vector<float> readColor();                               // width x height x RGBA
+  std::vector<float> readDepthImage(VkImage image, uint32_t size);// a D32_SFLOAT in SHADER_READ_ONLY_OPTIMAL
+
+  // Records with `record`, submits, waits. False: the device is lost.
+  bool submit(const std::function<void(VkCommandBuffer)>& record);
+
+private:
+  HeadlessHost();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace forelock::samples

@@ -80,7 +80,9 @@ build build
 runTests build
 
 say "2. rooms without a GPU, with AddressSanitizer and UBSan, in build/sanitize"
-configure build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DFORELOCK_SANITIZE=address,undefined
+# -O1: half the time to compile, and the stacks stay readable.
+configure build/sanitize -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-O1 -g1" -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+  -DFORELOCK_SANITIZE=address,undefined
 targets=$(targetsOf build/sanitize 'test_(asset|reference|plan|groom|api)')
 build build/sanitize $targets
 runTests build/sanitize -R "^($(echo $targets | tr ' ' '|'))\$"

@@ -43,7 +43,8 @@ std::vector<Root> plantRoots(const Recipe& recipe, const Body& body) {
     const double n = static_cast<double>(k);
     double u = 0.5 + n * 0.7548776662466927;
     double v = 0.5 + n * 0.5698402909980532;
-    u = clamp01(u - std::floor(u) + jitter * hashSigned(recipe.seed, kJitterU, k));
+    u = std::fabs(u - std::floor(u) + jitter * hashSigned(recipe.seed, kJitterU, k));
+    u = u > 1.0 ? 2.0 - u : u;  // reflected, because clamping would pile roots up at the poles
     v = v + jitter * hashSigned(recipe.seed, kJitterV, k);
     const double y = 1.0 - 2.0 * u;
     const double flat = std::sqrt(1.0 - y * y);

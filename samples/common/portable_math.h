@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The C library's sin, atan2 and exp may differ in the last bit from platform to platform; a groom must not.
+// Holds only where the compiler does not fuse multiplications and additions (-ffp-contract=off).
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,10 +1,10 @@
 /* A host engine in one C99 file: where Forelock sits in a frame. SPDX-License-Identifier: MIT
  *
  *   forelock_minimal [STRANDS] [OUT.ppm]    STRANDS: a strand file (.tfx, .hair), or "-" for the sphere made below
- *   FORELOCK_DEVICE=TEXT                    the first device whose name contains TEXT; otherwise a discrete GPU, else any
+ *   FORELOCK_DEVICE=TEXT                    a device whose name contains TEXT; otherwise a discrete GPU, else any
  *
- * Whatever does not concern hair is as short as Vulkan allows. The five places where the engine meets the SDK are marked
- * [1] to [5]; an engine copies those and keeps its own device, command buffers, images and synchronisation.
+ * Whatever does not concern hair is as short as Vulkan allows. The five places where the engine meets the SDK are
+ * marked [1] to [5]; an engine copies those and keeps its own device, command buffers, images and synchronisation.
  */
 #include <forelock/render.h>
 
@@ -130,7 +130,8 @@ static FlkResult growHair(FlkAsset* asset) {
   const float head = 0.1f, step = 0.16f / (VERTICES - 1);
   for (uint32_t s = 0; s < STRANDS; ++s) {
     /* A Fibonacci spiral spreads the roots evenly. */
-    const float up = 1.0f - 1.3f * ((float)s + 0.5f) / STRANDS, ring = sqrtf(1.0f - up * up), turn = 2.3999632f * (float)s;
+    const float up = 1.0f - 1.3f * ((float)s + 0.5f) / STRANDS, ring = sqrtf(1.0f - up * up),
+                turn = 2.3999632f * (float)s;
     const float normal[3] = {ring * cosf(turn), up, ring * sinf(turn)};
     float p[3] = {head * normal[0], head * normal[1], head * normal[2]};
     first_vertex[s] = s * VERTICES;
@@ -169,7 +170,8 @@ static void aimCamera(const FlkAssetInfo* info, FlkFrame* frame) {
   }
   radius = sqrt(radius);
   const double focal = 3.0; /* 1 / tan(half the vertical field of view) */
-  const double distance = radius * sqrt(focal * focal + 1.0), near_plane = 0.1 * radius, far_plane = distance + 2.0 * radius;
+  const double distance = radius * sqrt(focal * focal + 1.0), near_plane = 0.1 * radius,
+               far_plane = distance + 2.0 * radius;
   for (int i = 0; i < 4; ++i) frame->view_from_world[5 * i] = 1.0;
   for (int c = 0; c < 3; ++c) frame->view_from_world[12 + c] = -center[c];
   frame->view_from_world[14] -= distance;
@@ -217,7 +219,7 @@ int main(int argc, char** argv) {
   createDevice(&engine);
   VkDevice device = engine.device;
 
-  /* The engine's frame: a colour image, a buffer to read it back, and per frame in flight a command buffer and a fence. */
+  /* The engine's frame: a colour image, a buffer to read it back, per frame in flight a command buffer and a fence. */
   VkImageCreateInfo image_info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   image_info.imageType = VK_IMAGE_TYPE_2D;
   image_info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
@@ -268,7 +270,8 @@ int main(int argc, char** argv) {
   VkFence fences[FRAMES_IN_FLIGHT];
   VkFenceCreateInfo fence_info = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
   fence_info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
-  for (int i = 0; i < FRAMES_IN_FLIGHT; ++i) check(vkCreateFence(device, &fence_info, NULL, &fences[i]), "vkCreateFence");
+  for (int i = 0; i < FRAMES_IN_FLIGHT; ++i)
+    check(vkCreateFence(device, &fence_info, NULL, &fences[i]), "vkCreateFence");
 
   /* [2] Once: a context for the device, and a view for each thing that hair is drawn into. */
   FlkContextDesc context_desc = {.type = FLK_TYPE_CONTEXT};
@@ -301,7 +304,7 @@ int main(int argc, char** argv) {
   check(flkHairCreate(context, &hair_desc, &hair), "flkHairCreate");
   flkAssetDestroy(asset);
 
-  FlkLight light = {{0.4f, 0.8f, 0.6f}, {2.5f, 2.5f, 2.5f}, 1, 0};
+  FlkLight light = {{0.7f, 0.7f, 0.5f}, {8.0f, 7.6f, 7.0f}, 1, 0};
   FlkFrame frame = {.type = FLK_TYPE_FRAME};
   aimCamera(&asset_info, &frame);
   frame.hair_count = 1;
@@ -332,8 +335,8 @@ int main(int argc, char** argv) {
     check(vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
     check(vkResetFences(device, 1, &fence), "vkResetFences");
 
-    /* [4] Per frame: what is wanted, and what the engine knows to be done. Compiles and allocates what is new, so it has
-     * no place inside the recording; the counts of completed frames size the lists. */
+    /* [4] Per frame: what is wanted, and what the engine knows to be done. Compiles and allocates what is new; the
+     * counts of completed frames size the lists. */
     frame.frame_number = number;
     frame.completed_frame = number > FRAMES_IN_FLIGHT ? number - FRAMES_IN_FLIGHT : 0;
     FlkPlan plan;

@@ -3,6 +3,7 @@
 #define FORELOCK_LIB_CAPTURE_FRAGMENT
 #include "coverage.glsl"
 #include "numeric.glsl"
+#include "strand_quad.glsl"
 
 struct StrandFragment {
   float coverage;
@@ -12,31 +13,32 @@ struct StrandFragment {
   vec3 tangent;    // unit, view space, or 0
 };
 
-StrandFragment strandFragment(vec2 center, vec4 axis, vec4 extent, vec4 depth, vec4 tangent_a, vec4 tangent_b,
+// Coverage is 0 outside the quad.
+StrandFragment strandFragment(vec2 center, vec4 axis, vec4 lines, vec4 extent, vec4 depth, vec3 tangent_a, vec3 tangent_b,
                               float orthographic) {
   StrandFragment f;
-  vec2 t = axis.zw;
-  vec2 n = vec2(-t.y, t.x);
+  FlatSegment segment = flatSegment(axis.xy, axis.zw);  // l >= kShortestSegment: others make no quad
+  vec2 t = segment.t;
+  vec2 n = leftNormal(t);
   float a = max(abs(n.x), abs(n.y)), b = min(abs(n.x), abs(n.y));
   vec2 r = center - axis.xy;
-  float x = dot(r, n), y = dot(r, t), l = extent.x;
-  float v = clamp(y / l, 0.0, 1.0);  // l >= kShortestSegment
-  float h = mix(extent.y, extent.z, v);
+  float x = dot(r, n), y = dot(r, t), l = segment.l;
+  float v = clamp(y / l, 0.0, 1.0);
+  float h = mix(extent.x, extent.y, v);
   float strip = boxEdge(x + h, a, b) - boxEdge(x - h, a, b);
-  float root = extent.w > 0.0 ? boxEdge(y * extent.w, a, b) + 0.5 : 1.0;
-  float tip = depth.x > 0.0 ? boxEdge((l - y) * depth.x, a, b) + 0.5 : 1.0;
-  f.coverage = strip * max(root + tip - 1.0, 0.0);
+  float ends = boxEdge(y + extent.z, a, b) + boxEdge(l - y + extent.w, a, b);  // 1 away from root and tip
+  f.coverage = betweenLines(center, axis.xy, axis.zw, lines.xy, lines.zw) ? strip * max(ends, 0.0) : 0.0;
   f.width_px = 2.0 * h;
 
   float u = v;
   if (orthographic > 0.5) {
-    f.depth = mix(depth.y, depth.z, v);
+    f.depth = mix(depth.x, depth.y, v);
   } else {
-    f.depth = 1.0 / mix(1.0 / depth.y, 1.0 / depth.z, v);  // depths >= near plane > 0
-    u = clamp(v * f.depth / depth.z, 0.0, 1.0);
+    f.depth = 1.0 / mix(1.0 / depth.x, 1.0 / depth.y, v);  // depths >= near plane > 0
+    u = clamp(v * f.depth / depth.y, 0.0, 1.0);
   }
-  f.fraction = mix(depth.w, tangent_a.x, u);
-  f.tangent = unitOrZero(mix(tangent_a.yzw, tangent_b.xyz, u));
+  f.fraction = mix(depth.z, depth.w, u);
+  f.tangent = unitOrZero(mix(tangent_a, tangent_b, u));
   return f;
 }
 

@@ -12,7 +12,7 @@ vec3 hueColor(float hue) {
 }
 
 vec3 strandColor(uint hash) {
-  float hue = float(hash & 31u) / 32.0, level = float(hash >> 5 & 7u) / 7.0;
+  float hue = float(hash & 7u) / 8.0, level = float(hash >> 3 & 3u) / 3.0;
   return mix(vec3(0.6), hueColor(hue), 0.75) * (0.25 + 0.6 * level);
 }
 

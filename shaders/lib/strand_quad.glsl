@@ -26,23 +26,45 @@ float halfWidth(float r, vec2 s, vec2 t) {
   return s.x == s.y ? r * s.x : r * s.x * s.y * length(t / s);  // |t| = 1
 }
 
-// Corner at a joint, on side -1 or +1 of `own`. p: the joint; before, after: the segments that meet there, one of them own;
+// Rasterisers round corners to a fraction of a pixel (1/256 where it is coarsest): quads are drawn this much longer at joints,
+// and the fragment shader tests the line itself, so that segments much shorter than a pixel are not drawn at random.
+const float kCornerSlack = 1.0 / 64.0;
+
+struct QuadEnd {
+  vec2 corner;
+  vec2 line;  // normal of the line that ends the quad, pointing along the strand; 0: no line
+};
+
+// The end of `own` at a joint, on side -1 or +1. p: the joint; before, after: the segments that meet there, one of them own;
 // reach: of the two the larger.
-vec2 jointCorner(vec2 p, float side, float reach, FlatSegment before, FlatSegment after, bool own_is_before) {
+QuadEnd jointEnd(vec2 p, float side, float reach, FlatSegment before, FlatSegment after, bool own_is_before) {
   float c = clamp(dot(before.t, after.t), -1.0, 1.0);
   float s = before.t.x * after.t.y - before.t.y * after.t.x;
   float k_max = 0.5 * min(before.l, after.l);
+  vec2 t = own_is_before ? before.t : after.t;
+  float outward = own_is_before ? 1.0 : -1.0;
+  QuadEnd end;
   // tan(theta / 2) = |s| / (1 + c); multiplied out, so that a full turn back needs no guard.
-  if (reach * abs(s) <= k_max * (1.0 + c) && 1.0 + c > 0.0)
-    return p + side * reach * (leftNormal(before.t) + leftNormal(after.t)) / (1.0 + c);
-  float along = side * sign(s) * k_max;
-  return own_is_before ? p + side * reach * leftNormal(before.t) - along * before.t
-                       : p + side * reach * leftNormal(after.t) + along * after.t;
+  if (reach * abs(s) <= k_max * (1.0 + c) && 1.0 + c > 0.0) {
+    end.corner = p + side * reach * (leftNormal(before.t) + leftNormal(after.t)) / (1.0 + c);
+    end.line = before.t + after.t;  // the same numbers for both segments: a pixel is in one of them
+  } else {
+    float along = sign(s) * k_max;
+    end.corner = p + side * reach * leftNormal(t) - outward * side * along * t;
+    end.line = t * reach + outward * along * leftNormal(t);
+  }
+  end.corner += outward * kCornerSlack * t;
+  return end;
 }
 
-// Corner at an end without a neighbour; `outward` is +t or -t, `e` how far the quad goes on.
-vec2 endCorner(vec2 p, float side, float reach, vec2 t, vec2 outward, float e) {
-  return p + side * reach * leftNormal(t) + outward * e;
+// An end without a neighbour, drawn on for `e` past p; cut: the quad ends at p, else coverage fades it out.
+QuadEnd freeEnd(vec2 p, float side, float reach, vec2 t, float outward, float e, bool cut) {
+  return QuadEnd(p + side * reach * leftNormal(t) + outward * (cut ? kCornerSlack : e) * t, cut ? t : vec2(0.0));
+}
+
+// Whether a pixel centre lies between the lines of both ends.
+bool betweenLines(vec2 center, vec2 a, vec2 b, vec2 line_a, vec2 line_b) {
+  return dot(center - a, line_a) >= 0.0 && (dot(center - b, line_b) < 0.0 || line_b == vec2(0.0));
 }
 
 #endif

@@ -5,11 +5,11 @@
 #include "../shared/hair.h"
 
 float attributeRadius(uint word, float radius_max) {
-  float q = float(word & 0xFFFu) / FLK_ATTRIBUTE_STEPS;
+  float q = float(word & 0x7FFu) / FLK_RADIUS_STEPS;
   return radius_max * q * q;
 }
-float attributeFraction(uint word) { return float(word >> 12 & 0xFFFu) / FLK_ATTRIBUTE_STEPS; }
-uint attributeHash(uint word) { return word >> 24; }
+float attributeFraction(uint word) { return float(word >> FLK_FRACTION_SHIFT & 0xFFFFu) / FLK_FRACTION_STEPS; }
+uint attributeHash(uint word) { return word >> FLK_HASH_SHIFT; }
 
 // Tangent at a vertex between unit directions; own is used where the sum says nothing.
 vec3 vertexTangent(vec3 before, vec3 after, vec3 own) {

@@ -7,11 +7,12 @@
 #include "../lib/strand_quad.glsl"
 #include "../lib/strand_vertex.glsl"
 
-layout(location = 0) flat out vec4 out_axis;      // a.xy, t.xy (pixel)
-layout(location = 1) flat out vec4 out_extent;    // length, half widths, root ramp (pixel)
-layout(location = 2) flat out vec4 out_depth;     // tip ramp, depths, fraction at a
-layout(location = 3) flat out vec4 out_tangent_a; // fraction at b, tangent at a
-layout(location = 4) flat out vec4 out_tangent_b; // tangent at b, strand hash
+layout(location = 0) flat out vec4 out_axis;      // a.xy, b.xy (pixel)
+layout(location = 1) flat out vec4 out_lines;     // normals of the lines that end the quad at a, at b
+layout(location = 2) flat out vec4 out_extent;    // half widths, distances to the strand's root and tip (pixel)
+layout(location = 3) flat out vec4 out_depth;     // depths (metre), fractions
+layout(location = 4) flat out vec4 out_tangent_a; // tangent at a, strand hash
+layout(location = 5) flat out vec3 out_tangent_b;
 
 vec3 viewPosition(uint vertex) { return frame.hairs[hair_slot].view_from_hair * vec4(positions[vertex], 1.0); }
 
@@ -66,30 +67,32 @@ void main() {
 
   float extent = pixelHalfExtent(segment.t);  // also of the pixel along t: |n.x| = |t.y|
   float ha = pixelHalfWidth(at_a.x, a, segment.t), hb = pixelHalfWidth(at_b_end.x, b, segment.t);
-  float ramp = root && tip ? extent : min(extent, segment.l);
-  bool root_ramp = root && !cut_a, tip_ramp = tip && !cut_b;
+  float on_a = root && !cut_a ? extent : 0.0, on_b = tip && !cut_b ? extent : 0.0;  // past the strand's own ends
 
-  vec2 corner;
-  vec2 p = at_b ? segment.b : segment.a;
-  float reach = (at_b ? hb : ha) + extent;
-  vec2 outward = at_b ? segment.t : -segment.t;
-  bool ends = at_b ? tip || cut_b : root || cut_a;
-  FlatSegment other = segment;
-  if (!ends) other = at_b ? flatSegment(segment.b, toPixel(clippedToward(b, after)))
-                          : flatSegment(toPixel(clippedToward(a, before)), segment.a);
-  if (ends || !(other.l > 0.0)) {
-    corner = endCorner(p, side, reach, segment.t, outward, (at_b ? tip_ramp : root_ramp) ? ramp : 0.0);
+  QuadEnd end_a, end_b;
+  FlatSegment other = flatSegment(toPixel(clippedToward(a, before)), segment.a);
+  if (root || cut_a || !(other.l > 0.0)) {
+    end_a = freeEnd(segment.a, side, ha + extent, segment.t, -1.0, on_a, !(on_a > 0.0));
   } else {
-    float h_other = pixelHalfWidth(at_b ? at_b_end.x : at_a.x, at_b ? b : a, other.t);
-    reach = max(reach, h_other + pixelHalfExtent(other.t));
-    if (at_b) corner = jointCorner(p, side, reach, segment, other, true);
-    else corner = jointCorner(p, side, reach, other, segment, false);
+    float h_other = pixelHalfWidth(at_a.x, a, other.t);
+    end_a = jointEnd(segment.a, side, max(ha + extent, h_other + pixelHalfExtent(other.t)), other, segment, false);
+  }
+  other = flatSegment(segment.b, toPixel(clippedToward(b, after)));
+  if (tip || cut_b || !(other.l > 0.0)) {
+    end_b = freeEnd(segment.b, side, hb + extent, segment.t, 1.0, on_b, !(on_b > 0.0));
+  } else {
+    float h_other = pixelHalfWidth(at_b_end.x, b, other.t);
+    end_b = jointEnd(segment.b, side, max(hb + extent, h_other + pixelHalfExtent(other.t)), segment, other, true);
   }
 
-  gl_Position = vec4(corner / frame.size * 2.0 - 1.0, 0.0, 1.0);
-  out_axis = vec4(segment.a, segment.t);
-  out_extent = vec4(segment.l, ha, hb, root_ramp ? extent / ramp : 0.0);
-  out_depth = vec4(tip_ramp ? extent / ramp : 0.0, depthOf(a), depthOf(b), at_a.y);
-  out_tangent_a = vec4(at_b_end.y, tangent_a);
-  out_tangent_b = vec4(tangent_b, float(attributeHash(wa)));
+  gl_Position = vec4((at_b ? end_b.corner : end_a.corner) / frame.size * 2.0 - 1.0, 0.0, 1.0);
+  out_axis = vec4(segment.a, segment.b);
+  out_lines = vec4(end_a.line, end_b.line);
+  // Distances to the strand's ends, as if all of it ran as this segment does; a segment that the fraction's steps do not tell
+  // from a point counts as one step long.
+  float pixels_per_fraction = segment.l / max(at_b_end.y - at_a.y, 1.0 / FLK_FRACTION_STEPS);
+  out_extent = vec4(ha, hb, at_a.y * pixels_per_fraction, (1.0 - at_b_end.y) * pixels_per_fraction);
+  out_depth = vec4(depthOf(a), depthOf(b), at_a.y, at_b_end.y);
+  out_tangent_a = vec4(tangent_a, float(attributeHash(wa)));
+  out_tangent_b = tangent_b;
 }

@@ -13,18 +13,20 @@
 layout(constant_id = FLK_SPEC_DISPLAY) const int kDisplay = 0;
 
 layout(location = 0) flat in vec4 in_axis;
-layout(location = 1) flat in vec4 in_extent;
-layout(location = 2) flat in vec4 in_depth;
-layout(location = 3) flat in vec4 in_tangent_a;
-layout(location = 4) flat in vec4 in_tangent_b;
+layout(location = 1) flat in vec4 in_lines;
+layout(location = 2) flat in vec4 in_extent;
+layout(location = 3) flat in vec4 in_depth;
+layout(location = 4) flat in vec4 in_tangent_a;
+layout(location = 5) flat in vec3 in_tangent_b;
 
 void main() {
-  StrandFragment f = strandFragment(gl_FragCoord.xy, in_axis, in_extent, in_depth, in_tangent_a, in_tangent_b, frame.orthographic);
+  StrandFragment f = strandFragment(gl_FragCoord.xy, in_axis, in_lines, in_extent, in_depth, in_tangent_a.xyz, in_tangent_b,
+                                    frame.orthographic);
   float opacity = mix(frame.hairs[hair_slot].opacity_root, frame.hairs[hair_slot].opacity_tip, f.fraction);
   uint alpha = alphaCodeColor(clamp(f.coverage * opacity, 0.0, 1.0), FLK_CODING_DEFAULT);
   if (alpha == 0u || behindHostDepth(f.depth)) return;
   vec3 color = vec3(1.0);
-  if (kDisplay == FLK_SHOW_STRAND) color = strandColor(uint(in_tangent_b.w));
+  if (kDisplay == FLK_SHOW_STRAND) color = strandColor(uint(in_tangent_a.w));
   else if (kDisplay == FLK_SHOW_ROOT_TIP) color = rootTipColor(f.fraction);
   else if (kDisplay == FLK_SHOW_WIDTH) color = widthColor(f.width_px);
   else if (kDisplay == FLK_SHOW_DEPTH) color = depthColor(f.depth, frame.depth_range);

@@ -6,8 +6,9 @@
 #include "../lib/strand_quad.glsl"
 #include "../lib/strand_vertex.glsl"
 
-layout(location = 0) flat out vec4 out_axis;   // a.xy, t.xy (texel)
-layout(location = 1) flat out vec3 out_extent; // length (texel), depths (metre)
+layout(location = 0) flat out vec4 out_axis;  // a.xy, b.xy (texel)
+layout(location = 1) flat out vec4 out_lines; // normals of the lines that end the quad
+layout(location = 2) flat out vec4 out_depth; // depths (metre), half widths (texel)
 
 vec3 texelPosition(uint vertex) { return frame.hairs[hair_slot].texels_from_hair * vec4(positions[vertex], 1.0); }
 
@@ -25,18 +26,22 @@ void main() {
   gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);
   if (!(segment.l > 0.0)) return;
 
-  uint joint = at_b ? ia + 1 : ia;
-  vec2 p = at_b ? segment.b : segment.a;
-  float reach = texelHalfWidth(attributeRadius(attributes[joint], frame.hairs[hair_slot].radius_max));
-  bool ends = at_b ? tip : root;
-  FlatSegment other = segment;
-  if (!ends) other = at_b ? flatSegment(segment.b, texelPosition(ia + 2).xy) : flatSegment(texelPosition(ia - 1).xy, segment.a);
-  vec2 corner;
-  if (ends || !(other.l > 0.0)) corner = endCorner(p, side, reach, segment.t, vec2(0.0), 0.0);
-  else if (at_b) corner = jointCorner(p, side, reach, segment, other, true);
-  else corner = jointCorner(p, side, reach, other, segment, false);
+  float radius_max = frame.hairs[hair_slot].radius_max;
+  float ha = texelHalfWidth(attributeRadius(attributes[ia], radius_max));
+  float hb = texelHalfWidth(attributeRadius(attributes[ia + 1], radius_max));
+  FlatSegment before = segment, after = segment;
+  if (!root) before = flatSegment(texelPosition(ia - 1).xy, segment.a);
+  if (!tip) after = flatSegment(segment.b, texelPosition(ia + 2).xy);
+  QuadEnd end_a, end_b;
+  if (root || !(before.l > 0.0)) end_a = freeEnd(segment.a, side, ha, segment.t, -1.0, 0.0, true);
+  else end_a = jointEnd(segment.a, side, ha, before, segment, false);
+  if (tip || !(after.l > 0.0)) end_b = freeEnd(segment.b, side, hb, segment.t, 1.0, 0.0, true);
+  else end_b = jointEnd(segment.b, side, hb, segment, after, true);
+  // The sides are tested in the fragment shader too, and drawn as much too far.
+  vec2 corner = (at_b ? end_b.corner : end_a.corner) + side * kCornerSlack * leftNormal(segment.t);
 
   gl_Position = vec4(corner / float(frame.shadow_size) * 2.0 - 1.0, 0.0, 1.0);
-  out_axis = vec4(segment.a, segment.t);
-  out_extent = vec3(segment.l, a.z, b.z);
+  out_axis = vec4(segment.a, segment.b);
+  out_lines = vec4(end_a.line, end_b.line);
+  out_depth = vec4(a.z, b.z, ha, hb);
 }

@@ -7,8 +7,11 @@
 #define FLK_SEGMENT_ROOT 0x80000000u
 #define FLK_SEGMENT_TIP 0x40000000u
 
-// Attribute word: radius = radius_max * (q / 4095)^2 in bits 0-11, arc-length fraction / 4095 in bits 12-23, a hash of the
-// strand in bits 24-31 (for FLK_DISPLAY_STRAND).
-#define FLK_ATTRIBUTE_STEPS 4095.0
+// Attribute word: radius = radius_max * (q / 2047)^2 in bits 0-10, arc-length fraction / 65535 in bits 11-26, a hash of the
+// strand in bits 27-31 (for FLK_DISPLAY_STRAND).
+#define FLK_RADIUS_STEPS 2047.0
+#define FLK_FRACTION_STEPS 65535.0
+#define FLK_FRACTION_SHIFT 11
+#define FLK_HASH_SHIFT 27
 
 #endif

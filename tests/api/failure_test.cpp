@@ -1,5 +1,5 @@
-// Every call that can fail does so in turn, of Vulkan and of host memory: the SDK returns an error, loses nothing, and the
-// same call succeeds when it is made again.
+// Every call that can fail does so in turn, of Vulkan and of host memory: the SDK returns an error, loses nothing, and
+// the same call succeeds when it is made again.
 #include "scene.h"
 
 #include <functional>

@@ -28,7 +28,9 @@ uint64_t operatorNewCalls() { return new_calls; }
 
 HostMemory::HostMemory()
     : callbacks{this,
-                [](void* user, size_t size, size_t alignment) { return static_cast<HostMemory*>(user)->allocate(size, alignment); },
+                [](void* user, size_t size, size_t alignment) {
+                  return static_cast<HostMemory*>(user)->allocate(size, alignment);
+                },
                 [](void* user, void* memory, size_t size, size_t alignment) {
                   static_cast<HostMemory*>(user)->free(memory, size, alignment);
                 }} {}
@@ -43,7 +45,8 @@ void* HostMemory::allocate(size_t size, size_t alignment) {
     return nullptr;
   }
   if (size == 0) breaches.push_back("allocate: no size");
-  if (alignment == 0 || (alignment & (alignment - 1)) != 0) breaches.push_back("allocate: the alignment is no power of two");
+  if (alignment == 0 || (alignment & (alignment - 1)) != 0)
+    breaches.push_back("allocate: the alignment is no power of two");
   const size_t unit = alignment < sizeof(void*) ? sizeof(void*) : alignment;
   void* memory = std::aligned_alloc(unit, (size + unit) / unit * unit);
   std::memset(memory, 0xCD, size);  // whoever reads it before writing to it should notice

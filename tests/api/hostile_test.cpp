@@ -173,7 +173,8 @@ TEST_F(Hostile, targets) {
       {"width 16385", kInvalid, [](FlkFrame& f) { f.target.width = 16385; }},
       {"height 16385", kInvalid, [](FlkFrame& f) { f.target.height = 16385; }},
       {"exit layout UNDEFINED", kImage, [](FlkFrame& f) { f.target.exit.layout = VK_IMAGE_LAYOUT_UNDEFINED; }},
-      {"exit layout PREINITIALIZED", kImage, [](FlkFrame& f) { f.target.exit.layout = VK_IMAGE_LAYOUT_PREINITIALIZED; }},
+      {"exit layout PREINITIALIZED", kImage,
+       [](FlkFrame& f) { f.target.exit.layout = VK_IMAGE_LAYOUT_PREINITIALIZED; }},
   });
 }
 
@@ -190,8 +191,8 @@ TEST_F(Hostile, depthSources) {
   const VkFormat formats[] = {VK_FORMAT_D16_UNORM, VK_FORMAT_X8_D24_UNORM_PACK32, VK_FORMAT_D32_SFLOAT,
                               VK_FORMAT_D16_UNORM_S8_UINT, VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_D32_SFLOAT_S8_UINT};
   const VkImageLayout layouts[] = {VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                   VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
-                                   VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL};
+                                   VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+                                   VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL};
   uint64_t number = 200;
   for (const VkFormat format : formats)
     for (const VkImageLayout layout : layouts) {
@@ -254,7 +255,8 @@ TEST_F(Hostile, materials) {
     scene.message_ids.clear();
     EXPECT_EQ(flkHairSetMaterial(hair, &material), FLK_ERROR_INVALID_ARGUMENT) << what;
     EXPECT_FALSE(scene.message_ids.empty()) << what;
-    EXPECT_NE(scene.last_message.find(what), std::string::npos) << "'" << scene.last_message << "' does not name " << what;
+    EXPECT_NE(scene.last_message.find(what), std::string::npos)
+        << "'" << scene.last_message << "' does not name " << what;
     FlkHairDesc desc = forelock::hairDesc();
     desc.asset = asset;
     desc.material = &material;

@@ -124,7 +124,8 @@ TEST(Life, deviceMemoryFromTheHost) {
         ++self.live;
         allocation->memory = mock::handleOf<VkDeviceMemory>(block);
         allocation->offset = 1024;
-        allocation->mapped = properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT ? static_cast<char*>(block->bytes) + 1024 : nullptr;
+        allocation->mapped =
+            properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT ? static_cast<char*>(block->bytes) + 1024 : nullptr;
         allocation->user = block;
         return VK_SUCCESS;
       },
@@ -232,9 +233,12 @@ TEST(Life, refusesADeviceThatLacksSomething) {
       {"synchronization2", [](mock::Claims& claims) { claims.features13.synchronization2 = VK_FALSE; }},
       {"queue", [](mock::Claims& claims) { claims.queue_families[0].queueFlags = VK_QUEUE_COMPUTE_BIT; }},
       {"queue", [](mock::Claims& claims) { claims.queue_families[0].queueFlags = VK_QUEUE_GRAPHICS_BIT; }},
-      {"vkCreateComputePipelines", [](mock::Claims& claims) { claims.missing_functions.insert("vkCreateComputePipelines"); }},
-      {"vkGetPhysicalDeviceFeatures2", [](mock::Claims& claims) { claims.missing_functions.insert("vkGetPhysicalDeviceFeatures2"); }},
-      {"vkCmdPipelineBarrier2", [](mock::Claims& claims) { claims.missing_functions.insert("vkCmdPipelineBarrier2"); }},
+      {"vkCreateComputePipelines",
+       [](mock::Claims& claims) { claims.missing_functions.insert("vkCreateComputePipelines"); }},
+      {"vkGetPhysicalDeviceFeatures2",
+       [](mock::Claims& claims) { claims.missing_functions.insert("vkGetPhysicalDeviceFeatures2"); }},
+      {"vkCmdPipelineBarrier2",
+       [](mock::Claims& claims) { claims.missing_functions.insert("vkCmdPipelineBarrier2"); }},
   };
   for (const Lack& lack : lacks) {
     Scene scene;
@@ -261,13 +265,14 @@ TEST(Life, requirementsMatchWhatIsChecked) {
   EXPECT_EQ(needs.device_extension_count, 0u);
 }
 
-// One memory type that is everything, as on integrated GPUs and lavapipe; and host memory without coherence is not taken.
+// One memory type that is everything, as on integrated GPUs and lavapipe; host memory without coherence is not taken.
 TEST(Life, memoryTypes) {
   {
     Scene scene;
     scene.driver.claims.memory.memoryTypeCount = 1;
-    scene.driver.claims.memory.memoryTypes[0].propertyFlags =
-        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    scene.driver.claims.memory.memoryTypes[0].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT |
+                                                              VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                                              VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     ASSERT_EQ(scene.createContext(), FLK_SUCCESS);
     const forelock::Asset asset = makeAsset();
     {

@@ -1,14 +1,16 @@
-// A Vulkan driver that draws nothing: it counts, checks and records. The SDK reaches it through getInstanceProcAddr(), as it
-// reaches a real one. What it is for: nothing leaks and nothing goes while a frame in flight uses it, every call that can
-// fail may be made to fail, and what flkCmdRender recorded can be read back and compared with the plan.
+// A Vulkan driver that draws nothing: it counts, checks and records. The SDK reaches it through getInstanceProcAddr(),
+// as it reaches a real one. What it is for: nothing leaks and nothing goes while a frame in flight uses it, every call
+// that can fail may be made to fail, and what flkCmdRender recorded can be compared with the plan.
 //
-// Memory is real (malloc), so mapping works; copies, fills and updates of buffers are carried out when they are recorded;
-// draws and dispatches do nothing. Functions that the SDK must never use (submit, wait, queues, command pools) are breaches
-// already when they are asked for. One driver exists at a time.
+// Memory is real (malloc), so mapping works; copies, fills and updates of buffers are carried out when they are
+// recorded; draws and dispatches do nothing, but what their shaders declare must be bound and alive. Functions that the
+// SDK must never use (submit, wait, queues, command pools) are breaches already when they are asked for. One driver
+// exists at a time.
 #pragma once
 
 #include <vulkan/vulkan.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -125,6 +127,7 @@ public:
   void use(Object* object);
   bool busy(const Object* object) const { return object->last_frame > completed; }
   void destroy(const void* handle, Kind kind, const char* by);
+  void dropSet(Object* pool, Object* set, const char* by);
   Command& record(VkCommandBuffer cmd, const char* name, bool wanted_inside, bool allowed_both = false);
 
   // State of the command buffer, by bind point (graphics, compute).
@@ -137,6 +140,13 @@ private:
   std::vector<std::unique_ptr<Object>> objects_;
   std::set<const void*> addresses_;
 };
+
+// Where a buffer's bytes are; NULL: it has no memory.
+std::byte* bytesOf(const Object* buffer, VkDeviceSize offset);
+
+using FunctionTable = std::map<std::string, PFN_vkVoidFunction>;
+const FunctionTable& deviceFunctions();   // mock_device.cpp
+const FunctionTable& commandFunctions();  // mock_commands.cpp
 
 // Handles are pointers to objects.
 template <class Handle> Handle handleOf(Object* object) { return reinterpret_cast<Handle>(object); }

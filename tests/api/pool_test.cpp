@@ -73,7 +73,7 @@ TEST_F(Pool, shrinksToTheCount) {
   finish(view);
 }
 
-// Frames 1 to 3 are in flight when the count of frame 1 asks for more: the lists they use stay until they have completed.
+// Frames 2 and 3 are in flight when the count of frame 1 asks for more: the lists they use stay until they complete.
 TEST_F(Pool, replacedMemoryWaitsForFramesInFlight) {
   forelock::View view = scene.createView(3);
   const uint64_t capacity = render(view, 3, 0).node_capacity;

@@ -1,4 +1,4 @@
-// What flkCmdRender records is what the plan lists: every pass once, nothing else, and nothing at all for what is not there.
+// What flkCmdRender records is what the plan lists: every pass once, nothing else, and nothing for what is not there.
 #include "scene.h"
 
 #include <algorithm>

@@ -34,9 +34,10 @@ FlkStrands twoStrands() {
   return strands;
 }
 
-template <class T> constexpr bool kMoveOnly =
-    std::is_nothrow_move_constructible_v<T> && std::is_nothrow_move_assignable_v<T> && !std::is_copy_constructible_v<T> &&
-    !std::is_copy_assignable_v<T> && sizeof(T) == sizeof(void*);
+template <class T>
+constexpr bool kMoveOnly =
+    std::is_nothrow_move_constructible_v<T>&& std::is_nothrow_move_assignable_v<T> &&
+    !std::is_copy_constructible_v<T> && !std::is_copy_assignable_v<T> && sizeof(T) == sizeof(void*);
 static_assert(kMoveOnly<forelock::Asset> && kMoveOnly<forelock::Context> && kMoveOnly<forelock::Hair> &&
               kMoveOnly<forelock::View>);
 

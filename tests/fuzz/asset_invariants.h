@@ -37,7 +37,8 @@ inline const char* brokenPromise(FlkAsset asset) {
         const float value = strands.positions[size_t{vertex} * 3 + axis];
         if (!(std::fabs(value) <= 1e6f)) return "positions finite and within 1e6";
         if (value < info.min_bounds[axis] || value > info.max_bounds[axis]) return "positions within the bounds";
-        if (vertex > begin) longest = std::fmax(longest, std::fabs(double{value} - strands.positions[(size_t{vertex} - 1) * 3 + axis]));
+        if (vertex > begin)
+          longest = std::fmax(longest, std::fabs(double{value} - strands.positions[(size_t{vertex} - 1) * 3 + axis]));
       }
       const float radius = strands.radii[vertex];
       if (!(radius >= 0) || !std::isfinite(radius)) return "radii finite and not negative";

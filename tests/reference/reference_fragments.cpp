@@ -42,13 +42,14 @@ Placed place(const PlaneSegment& s, int column, int row) {
   return {dot(from_a, s.n), y, std::clamp(y / s.l, 0.0, 1.0)};
 }
 
-double coverageAt(const PlaneSegment& s, const Placed& at) {
+double coverageAt(const ScreenSegment& segment, const Placed& at) {
+  const PlaneSegment& s = segment.plane;
   const double h = mix(s.h_a, s.h_b, at.v);
   const double strip = pixelHalfArea(at.x + h, s.n.x, s.n.y) - pixelHalfArea(at.x - h, s.n.x, s.n.y);
-  double root = 1, tip = 1;
+  const double per_fraction = s.l / (segment.fraction_b - segment.fraction_a);
   // A pixel seen along t has the same extents as along n, with the components swapped.
-  if (s.e_root > 0) root = pixelHalfArea(at.y * s.extent / s.e_root, s.t.x, s.t.y) + 0.5;
-  if (s.e_tip > 0) tip = pixelHalfArea((s.l - at.y) * s.extent / s.e_tip, s.t.x, s.t.y) + 0.5;
+  const double root = pixelHalfArea(at.y + segment.fraction_a * per_fraction, s.t.x, s.t.y) + 0.5;
+  const double tip = pixelHalfArea(s.l - at.y + (1 - segment.fraction_b) * per_fraction, s.t.x, s.t.y) + 0.5;
   return strip * std::max(root + tip - 1, 0.0);
 }
 
@@ -126,7 +127,7 @@ FragmentLists gatherFragments(const Scene& scene, const Camera& camera, const Ga
       const Hair& hair = scene.hairs[s.hair];
       forEachCell(s.plane.corner, camera.width, row_begin, row_end, [&](int column, int row) {
         const Placed at = place(s.plane, column, row);
-        const double coverage = coverageAt(s.plane, at);
+        const double coverage = coverageAt(s, at);
         const Along where = along(s, at.v, perspective);
         const double fraction = mix(s.fraction_a, s.fraction_b, where.u);
         const double alpha = std::clamp(coverage * opacityAt(hair.material, fraction), 0.0, 1.0);

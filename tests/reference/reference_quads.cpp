@@ -66,11 +66,10 @@ void shapeStrand(std::span<PlaneSegment> segments, bool flush) {
   for (size_t i = 0; i < count; ++i) {
     PlaneSegment& segment = segments[i];
     if (!segment.exists) continue;
-    const double e = count == 1 ? segment.extent : std::min(segment.extent, segment.l);
     segment.has_root = i == 0 && !segment.cut_a;
     segment.has_tip = i + 1 == count && !segment.cut_b;
-    segment.e_root = segment.has_root && !flush ? e : 0;
-    segment.e_tip = segment.has_tip && !flush ? e : 0;
+    segment.e_root = segment.has_root && !flush ? segment.extent : 0;
+    segment.e_tip = segment.has_tip && !flush ? segment.extent : 0;
 
     const bool joins_before = i > 0 && segments[i - 1].exists && !segment.cut_a && !segments[i - 1].cut_b;
     const bool joins_after = i + 1 < count && segments[i + 1].exists && !segment.cut_b && !segments[i + 1].cut_a;

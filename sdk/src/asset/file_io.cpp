@@ -105,8 +105,8 @@ FlkResult readFile(const char* path, uint64_t largest, const Report& report, Acc
     return result;
   if (size > largest)
     return report.fail(FLK_ERROR_LIMIT, "FILE_TOO_LARGE",
-                       "it has %" PRIu64 " bytes, more than the %" PRIu64 " that strands and vertices within the limits can fill: "
-                       "split it or raise the limits",
+                       "it has %" PRIu64 " bytes, more than the %" PRIu64
+                       " that strands and vertices within the limits can fill: split it or raise the limits",
                        size, largest);
 
   bytes.resize(size);

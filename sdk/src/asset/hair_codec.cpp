@@ -84,9 +84,11 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
   // strand but the first in the wrong place.
   if (used_points > point_count || (!table[segments].present && used_points != point_count))
     return report.fail(FLK_ERROR_MALFORMED, "HAIR_SEGMENTS_DISAGREE",
-                       "the segments (%s) make %" PRIu64 " points of %" PRIu64 " strands (byte 4), but the header counts %" PRIu64
+                       "the segments (%s) make %" PRIu64 " points of %" PRIu64
+                       " strands (byte 4), but the header counts %" PRIu64
                        " points (byte 8): the file is damaged, export it again",
-                       table[segments].present ? "array at byte 128" : "default at byte 16", used_points, strands, point_count);
+                       table[segments].present ? "array at byte 128" : "default at byte 16", used_points, strands,
+                       point_count);
 
   if (strands > limits.strands || point_count > limits.vertices)
     return report.fail(FLK_ERROR_LIMIT, "HAIR_TOO_LARGE",

@@ -76,7 +76,7 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
                            a.name, a.field, a.offset, a.end(), b.name, b.offset, b.field);
   if (strands > limits.strands || vertices > limits.vertices)
     return report.fail(FLK_ERROR_LIMIT, "TFX_TOO_LARGE",
-                       "it holds %" PRIu64 " strands (byte 4) and %" PRIu64 " vertices (byte 8 times as many), beyond the "
+                       "it holds %" PRIu64 " strands (byte 4) and %" PRIu64 " vertices (byte 4 times byte 8), beyond the "
                        "limit of %" PRIu32 " and %" PRIu32 ": split it or raise the limit",
                        strands, vertices, limits.strands, limits.vertices);
 

@@ -94,14 +94,14 @@ void Hair::fill(const FlkStrands& strands, bool keep_order, uint32_t seed, float
     length_ += strand_length;
     if (!store) continue;
     uint64_t hash_state = strand;
-    const uint32_t hash = uint32_t(splitMix(hash_state) & 0xFF);
+    const uint32_t hash = uint32_t(splitMix(hash_state) & 0x1F);
     double walked = 0;
     for (uint32_t i = begin; i < end; ++i, ++vertex) {
       std::memcpy(positions + std::size_t(vertex) * 3, strands.positions + std::size_t(i) * 3, 12);
       const double radius = radius_max > 0 ? std::sqrt(double(strands.radii[i]) / radius_max) : 0;
       const double fraction = std::min(walked / strand_length, 1.0);  // an asset holds no strand without length
-      attributes[vertex] = uint32_t(std::lround(radius * FLK_ATTRIBUTE_STEPS)) |
-                           uint32_t(std::lround(fraction * FLK_ATTRIBUTE_STEPS)) << 12 | hash << 24;
+      attributes[vertex] = uint32_t(std::lround(radius * FLK_RADIUS_STEPS)) |
+                           uint32_t(std::lround(fraction * FLK_FRACTION_STEPS)) << FLK_FRACTION_SHIFT | hash << FLK_HASH_SHIFT;
       if (i + 1 == end) continue;
       walked += segmentLength(i);
       *segments++ = vertex | (i == begin ? FLK_SEGMENT_ROOT : 0) | (i + 2 == end ? FLK_SEGMENT_TIP : 0);

@@ -59,7 +59,7 @@ TEST(ReferenceJoint, BentStrandsKeepTheirAreaInTheMean) {
         for (const bool alternate : {false, true}) {
           AreaError e = areaError(width, l, bend, alternate, 50, random);
           // The sum scatters with the offset; sample until the mean is known to 0.5 %, as far as that is affordable.
-          const double wanted = std::min(4000.0, 50 * std::pow(e.standard_error / 0.005, 2));
+          const double wanted = std::min(1500.0, 50 * std::pow(e.standard_error / 0.005, 2));
           if (wanted > 50) e = areaError(width, l, bend, alternate, int(wanted), random);
           mean[bend > 30] = std::max(mean[bend > 30], std::fabs(e.mean));
           single[bend > 30] = std::max(single[bend > 30], e.worst);

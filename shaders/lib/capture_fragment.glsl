@@ -14,15 +14,13 @@ struct StrandFragment {
 };
 
 // Coverage is 0 outside the quad.
-StrandFragment strandFragment(vec2 center, vec4 axis, vec4 lines, vec4 extent, vec4 depth, vec3 tangent_a, vec3 tangent_b,
-                              float orthographic) {
+StrandFragment strandFragment(vec2 center, vec4 axis, vec4 lines, vec4 extent, vec4 depth, vec3 tangent_a, vec4 tangent_b,
+                              vec2 t, float orthographic) {
   StrandFragment f;
-  FlatSegment segment = flatSegment(axis.xy, axis.zw);  // l >= kShortestSegment: others make no quad
-  vec2 t = segment.t;
   vec2 n = leftNormal(t);
   float a = max(abs(n.x), abs(n.y)), b = min(abs(n.x), abs(n.y));
   vec2 r = center - axis.xy;
-  float x = dot(r, n), y = dot(r, t), l = segment.l;
+  float x = dot(r, n), y = dot(r, t), l = tangent_b.w;  // l >= kShortestSegment: others make no quad
   float v = clamp(y / l, 0.0, 1.0);
   float h = mix(extent.x, extent.y, v);
   float strip = boxEdge(x + h, a, b) - boxEdge(x - h, a, b);
@@ -38,7 +36,7 @@ StrandFragment strandFragment(vec2 center, vec4 axis, vec4 lines, vec4 extent, v
     u = clamp(v * f.depth / depth.y, 0.0, 1.0);
   }
   f.fraction = mix(depth.z, depth.w, u);
-  f.tangent = unitOrZero(mix(tangent_a, tangent_b, u));
+  f.tangent = unitOrZero(mix(tangent_a, tangent_b.xyz, u));
   return f;
 }
 

@@ -9,6 +9,12 @@ vec2 projectToPixel(vec3 p, vec2 scale, vec2 offset, float orthographic, vec2 si
   return (ndc * 0.5 + 0.5) * size;
 }
 
+// Pixels from the projection of p to that of p + d, without the cancellation of two projections.
+vec2 projectDelta(vec3 p, vec3 d, vec2 scale, float orthographic, vec2 size) {
+  vec2 ndc = orthographic > 0.5 ? d.xy * scale : (d.xy - p.xy * (d.z / p.z)) * scale / -(p.z + d.z);
+  return ndc * 0.5 * size;
+}
+
 // View-space point at a pixel position and depth.
 vec3 unprojectPixel(vec2 pixel, float depth, vec2 scale, vec2 offset, float orthographic, vec2 size) {
   vec2 ndc = pixel / size * 2.0 - 1.0;

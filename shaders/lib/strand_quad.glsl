@@ -12,8 +12,8 @@ struct FlatSegment {
   float l;  // length; 0 where the segment makes no quad
 };
 
-FlatSegment flatSegment(vec2 a, vec2 b) {
-  vec2 d = b - a;
+// d: b - a, not from their difference: that has no digits left where segments are short and far from the origin.
+FlatSegment flatSegment(vec2 a, vec2 b, vec2 d) {
   float l = length(d);
   bool drawn = l >= kShortestSegment;  // false for NaN
   return FlatSegment(a, b, drawn ? d / l : vec2(0.0), drawn ? l : 0.0);

@@ -12,7 +12,8 @@ layout(location = 1) flat out vec4 out_lines;     // normals of the lines that e
 layout(location = 2) flat out vec4 out_extent;    // half widths, distances to the strand's root and tip (pixel)
 layout(location = 3) flat out vec4 out_depth;     // depths (metre), fractions
 layout(location = 4) flat out vec4 out_tangent_a; // tangent at a, strand hash
-layout(location = 5) flat out vec3 out_tangent_b;
+layout(location = 5) flat out vec4 out_tangent_b; // tangent at b, length (pixel)
+layout(location = 6) flat out vec2 out_direction; // unit, a to b
 
 vec3 viewPosition(uint vertex) { return frame.hairs[hair_slot].view_from_hair * vec4(positions[vertex], 1.0); }
 
@@ -25,10 +26,15 @@ float pixelHalfWidth(float radius, vec3 p, vec2 t) {
   return halfWidth(radius, frame.pixels_per_unit / (frame.orthographic > 0.5 ? 1.0 : depthOf(p)), t);
 }
 
-// The neighbour's far end, moved to the near plane if it lies before it. The near end is visible.
-vec3 clippedToward(vec3 near_end, vec3 far_end) {
-  float d0 = depthOf(near_end), d1 = depthOf(far_end);
-  return d1 >= frame.near_plane ? far_end : mix(near_end, far_end, (d0 - frame.near_plane) / (d0 - d1));  // d1 < near <= d0
+vec3 viewDelta(uint from, uint to) { return mat3(frame.hairs[hair_slot].view_from_hair) * (positions[to] - positions[from]); }
+
+// Share of d from p, which is not before the near plane, that is not either.
+float visibleShare(vec3 p, vec3 d) {
+  return depthOf(p + d) >= frame.near_plane ? 1.0 : (depthOf(p) - frame.near_plane) / d.z;  // d.z > 0: it comes nearer
+}
+
+FlatSegment toFlat(vec3 a, vec3 b, vec3 d) {
+  return flatSegment(toPixel(a), toPixel(b), projectDelta(a, d, frame.proj_scale, frame.orthographic, frame.size));
 }
 
 void main() {
@@ -39,29 +45,31 @@ void main() {
   bool root = (word & FLK_SEGMENT_ROOT) != 0u, tip = (word & FLK_SEGMENT_TIP) != 0u;
 
   vec3 a = viewPosition(ia), b = viewPosition(ia + 1);
-  vec3 before = root ? a : viewPosition(ia - 1), after = tip ? b : viewPosition(ia + 2);
+  vec3 d = viewDelta(ia, ia + 1);
+  vec3 d_before = root ? vec3(0.0) : viewDelta(ia - 1, ia), d_after = tip ? vec3(0.0) : viewDelta(ia + 1, ia + 2);
   uint wa = attributes[ia], wb = attributes[ia + 1];
   float radius_max = frame.hairs[hair_slot].radius_max;
   vec4 at_a = vec4(attributeRadius(wa, radius_max), attributeFraction(wa), 0.0, 0.0);
   vec4 at_b_end = vec4(attributeRadius(wb, radius_max), attributeFraction(wb), 0.0, 0.0);
 
-  vec3 own = unitOrZero(b - a);
-  vec3 tangent_a = vertexTangent(unitOrZero(a - before), own, own);
-  vec3 tangent_b = vertexTangent(own, unitOrZero(after - b), own);
+  vec3 own = unitOrZero(d);
+  vec3 tangent_a = vertexTangent(unitOrZero(d_before), own, own);
+  vec3 tangent_b = vertexTangent(own, unitOrZero(d_after), own);
 
   // Near plane.
   bool hidden = depthOf(a) < frame.near_plane && depthOf(b) < frame.near_plane;
   bool cut_a = depthOf(a) < frame.near_plane, cut_b = depthOf(b) < frame.near_plane;
   if (!hidden && (cut_a || cut_b)) {
-    float u = (frame.near_plane - depthOf(a)) / (depthOf(b) - depthOf(a));  // one is before the plane, one is not
+    float u = cut_a ? 1.0 - visibleShare(b, -d) : visibleShare(a, d);
     vec3 p = vec3(mix(a.xy, b.xy, u), -frame.near_plane);
+    d *= cut_a ? 1.0 - u : u;
     vec4 cut = mix(at_a, at_b_end, u);
     vec3 tangent = mix(tangent_a, tangent_b, u);
     if (cut_a) { a = p; at_a = cut; tangent_a = tangent; }
     else { b = p; at_b_end = cut; tangent_b = tangent; }
   }
 
-  FlatSegment segment = flatSegment(toPixel(a), toPixel(b));
+  FlatSegment segment = toFlat(a, b, d);
   gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);  // four equal corners: nothing is drawn
   if (hidden || !(segment.l > 0.0)) return;
 
@@ -70,14 +78,16 @@ void main() {
   float on_a = root && !cut_a ? extent : 0.0, on_b = tip && !cut_b ? extent : 0.0;  // past the strand's own ends
 
   QuadEnd end_a, end_b;
-  FlatSegment other = flatSegment(toPixel(clippedToward(a, before)), segment.a);
+  d_before *= visibleShare(a, -d_before);
+  FlatSegment other = toFlat(a - d_before, a, d_before);
   if (root || cut_a || !(other.l > 0.0)) {
     end_a = freeEnd(segment.a, side, ha + extent, segment.t, -1.0, on_a, !(on_a > 0.0));
   } else {
     float h_other = pixelHalfWidth(at_a.x, a, other.t);
     end_a = jointEnd(segment.a, side, max(ha + extent, h_other + pixelHalfExtent(other.t)), other, segment, false);
   }
-  other = flatSegment(segment.b, toPixel(clippedToward(b, after)));
+  d_after *= visibleShare(b, d_after);
+  other = toFlat(b, b + d_after, d_after);
   if (tip || cut_b || !(other.l > 0.0)) {
     end_b = freeEnd(segment.b, side, hb + extent, segment.t, 1.0, on_b, !(on_b > 0.0));
   } else {
@@ -94,5 +104,6 @@ void main() {
   out_extent = vec4(ha, hb, at_a.y * pixels_per_fraction, (1.0 - at_b_end.y) * pixels_per_fraction);
   out_depth = vec4(depthOf(a), depthOf(b), at_a.y, at_b_end.y);
   out_tangent_a = vec4(tangent_a, float(attributeHash(wa)));
-  out_tangent_b = tangent_b;
+  out_tangent_b = vec4(tangent_b, segment.l);
+  out_direction = segment.t;
 }

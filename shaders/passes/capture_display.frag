@@ -17,11 +17,12 @@ layout(location = 1) flat in vec4 in_lines;
 layout(location = 2) flat in vec4 in_extent;
 layout(location = 3) flat in vec4 in_depth;
 layout(location = 4) flat in vec4 in_tangent_a;
-layout(location = 5) flat in vec3 in_tangent_b;
+layout(location = 5) flat in vec4 in_tangent_b;
+layout(location = 6) flat in vec2 in_direction;
 
 void main() {
   StrandFragment f = strandFragment(gl_FragCoord.xy, in_axis, in_lines, in_extent, in_depth, in_tangent_a.xyz, in_tangent_b,
-                                    frame.orthographic);
+                                    in_direction, frame.orthographic);
   float opacity = mix(frame.hairs[hair_slot].opacity_root, frame.hairs[hair_slot].opacity_tip, f.fraction);
   uint alpha = alphaCodeColor(clamp(f.coverage * opacity, 0.0, 1.0), FLK_CODING_DEFAULT);
   if (alpha == 0u || behindHostDepth(f.depth)) return;

@@ -9,8 +9,11 @@
 layout(location = 0) flat out vec4 out_axis;  // a.xy, b.xy (texel)
 layout(location = 1) flat out vec4 out_lines; // normals of the lines that end the quad
 layout(location = 2) flat out vec4 out_depth; // depths (metre), half widths (texel)
+layout(location = 3) flat out vec3 out_direction; // unit, a to b; length (texel)
 
 vec3 texelPosition(uint vertex) { return frame.hairs[hair_slot].texels_from_hair * vec4(positions[vertex], 1.0); }
+
+vec2 texelDelta(uint from, uint to) { return (mat3(frame.hairs[hair_slot].texels_from_hair) * (positions[to] - positions[from])).xy; }
 
 float texelHalfWidth(float radius) { return max(radius / frame.shadow_texel, 0.5); }
 
@@ -22,7 +25,7 @@ void main() {
   bool root = (word & FLK_SEGMENT_ROOT) != 0u, tip = (word & FLK_SEGMENT_TIP) != 0u;
 
   vec3 a = texelPosition(ia), b = texelPosition(ia + 1);
-  FlatSegment segment = flatSegment(a.xy, b.xy);
+  FlatSegment segment = flatSegment(a.xy, b.xy, texelDelta(ia, ia + 1));
   gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);
   if (!(segment.l > 0.0)) return;
 
@@ -30,8 +33,8 @@ void main() {
   float ha = texelHalfWidth(attributeRadius(attributes[ia], radius_max));
   float hb = texelHalfWidth(attributeRadius(attributes[ia + 1], radius_max));
   FlatSegment before = segment, after = segment;
-  if (!root) before = flatSegment(texelPosition(ia - 1).xy, segment.a);
-  if (!tip) after = flatSegment(segment.b, texelPosition(ia + 2).xy);
+  if (!root) before = flatSegment(texelPosition(ia - 1).xy, segment.a, texelDelta(ia - 1, ia));
+  if (!tip) after = flatSegment(segment.b, texelPosition(ia + 2).xy, texelDelta(ia + 1, ia + 2));
   QuadEnd end_a, end_b;
   if (root || !(before.l > 0.0)) end_a = freeEnd(segment.a, side, ha, segment.t, -1.0, 0.0, true);
   else end_a = jointEnd(segment.a, side, ha, before, segment, false);
@@ -44,4 +47,5 @@ void main() {
   out_axis = vec4(segment.a, segment.b);
   out_lines = vec4(end_a.line, end_b.line);
   out_depth = vec4(a.z, b.z, ha, hb);
+  out_direction = vec3(segment.t, segment.l);
 }

@@ -1,30 +1,7 @@
 #include "host_memory.h"
 
-#include <atomic>
 #include <cstdlib>
 #include <cstring>
-#include <new>
-
-namespace {
-
-std::atomic<uint64_t> new_calls{0};
-
-void* counted(std::size_t size) {
-  ++new_calls;
-  if (void* memory = std::malloc(size ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-
-uint64_t operatorNewCalls() { return new_calls; }
 
 HostMemory::HostMemory()
     : callbacks{this,

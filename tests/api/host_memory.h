@@ -30,6 +30,3 @@ private:
   void free(void* memory, size_t size, size_t alignment);
   std::map<void*, Block> blocks_;
 };
-
-// Calls of operator new in this program so far, by whomever.
-uint64_t operatorNewCalls();

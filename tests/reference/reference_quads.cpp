@@ -134,7 +134,8 @@ std::vector<ScreenSegment> screenSegments(const Scene& scene, const Camera& came
           const double w = clip[11] * p.z + clip[15];
           const double ndc_x = (clip[0] * p.x + clip[8] * p.z + clip[12]) / w;
           const double ndc_y = (clip[5] * p.y + clip[9] * p.z + clip[13]) / w;
-          (side ? plane.b : plane.a) = {(ndc_x + 1) / 2 * camera.width * scale, (ndc_y + 1) / 2 * camera.height * scale};
+          Vec2& at = side ? plane.b : plane.a;
+          at = {(ndc_x + 1) / 2 * camera.width * scale, (ndc_y + 1) / 2 * camera.height * scale};
           sx[side] = std::fabs(clip[0]) * camera.width * scale / (2 * c);
           sy[side] = std::fabs(clip[5]) * camera.height * scale / (2 * c);
         }

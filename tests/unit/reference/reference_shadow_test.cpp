@@ -119,7 +119,8 @@ TEST(ReferenceShadow, ScalingTheSceneChangesNothing) {
       std::vector<Vec3> points;
       for (int v = 0; v < 6; ++v) {
         points.push_back(p);
-        p = {p.x + 0.1 * normal(random) * scale, p.y + 0.1 * normal(random) * scale, p.z + 0.1 * normal(random) * scale};
+        const double step = 0.1 * scale;
+        p = {p.x + step * normal(random), p.y + step * normal(random), p.z + step * normal(random)};
       }
       addStrand(scene.hairs[0].strands, points, 0.004 * scale);
     }

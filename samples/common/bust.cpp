@@ -70,10 +70,10 @@ glm::vec3 shadePoint(const BustLook& look, const glm::vec3& to_light, const glm:
   if (lit > 0.0f) {
     float t = 0.004f;
     float visible = 1.0f;
-    for (int i = 0; i < 14 && t < 0.35f && visible > 0.02f; ++i) {
+    for (int i = 0; i < 8 && t < 0.30f && visible > 0.02f; ++i) {
       const float d = shape::bust<float>(p + normal * 0.0015f + to_light * t);
       visible = std::min(visible, 10.0f * d / t);
-      t += std::max(d, 0.006f);
+      t += std::max(1.2f * d, 0.010f);
     }
     lit *= std::clamp(visible, 0.0f, 1.0f);
   }
@@ -82,7 +82,8 @@ glm::vec3 shadePoint(const BustLook& look, const glm::vec3& to_light, const glm:
   const float cosine = std::max(glm::dot(normal, half), 0.0f);
   const float square = cosine * cosine;
   const float gloss = 0.05f * lit * square * square * square * square;
-  return look.albedo * (look.light * (lit * 0.3183099f) + look.ambient * (sky * open)) + look.light * (gloss * 0.3183099f);
+  const glm::vec3 arriving = look.light * (lit * 0.3183099f) + look.ambient * (sky * open);
+  return look.albedo * arriving + look.light * (gloss * 0.3183099f);
 }
 
 }  // namespace

@@ -58,8 +58,8 @@ void projectionMatrix(const Camera& camera, double aspect, float projection[16])
   projection[14] = static_cast<float>(depth_offset);
 }
 
-Camera frameBounds(const float min_bounds[3], const float max_bounds[3], double azimuth, double elevation, UpAxis up_axis,
-                   double vertical_fov, double aspect, double margin) {
+Camera frameBounds(const float min_bounds[3], const float max_bounds[3], double azimuth, double elevation,
+                   UpAxis up_axis, double vertical_fov, double aspect, double margin) {
   const glm::dvec3 low(min_bounds[0], min_bounds[1], min_bounds[2]);
   const glm::dvec3 high(max_bounds[0], max_bounds[1], max_bounds[2]);
   const double flat = std::cos(elevation);

@@ -41,8 +41,8 @@ enum class UpAxis { Y, Z };
 // A perspective camera that sees all of the box, seen from `azimuth` (rad; 0 is the front: +z where y is up, -y where z
 // is up; positive towards the left of who faces the camera, +x) and `elevation` (rad, positive from above). near and far
 // enclose the box with room to spare. `margin` 1.05 leaves 5 % around.
-Camera frameBounds(const float min_bounds[3], const float max_bounds[3], double azimuth, double elevation, UpAxis up_axis,
-                   double vertical_fov, double aspect, double margin);
+Camera frameBounds(const float min_bounds[3], const float max_bounds[3], double azimuth, double elevation,
+                   UpAxis up_axis, double vertical_fov, double aspect, double margin);
 
 Camera fromRecipeCamera(const RecipeCamera& stored);
 

@@ -32,6 +32,11 @@ if nm -D --undefined-only "$library" | grep -E ' vk[A-Z]'; then
   echo "links Vulkan functions"
   exit 1
 fi
+# Every byte of host memory goes through the host's callbacks: nothing calls operator new.
+if nm -D --undefined-only "$library" | grep -E ' _Zn[wa]'; then
+  echo "allocates past the host's callbacks"
+  exit 1
+fi
 # Writes to no console and ends no program.
 if nm -D --undefined-only "$library" | grep -E -w '(printf|puts|putchar|perror|abort|exit|_exit|quick_exit)(@.*)?$'; then
   echo "prints or exits"

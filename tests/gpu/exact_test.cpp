@@ -10,28 +10,16 @@ namespace {
 
 using samples::HairColor;
 
-struct Case {
-  const char* name;
-  const char* source;
-  uint32_t stride;  // thins a groom so that 5-pixel strands fit the lists at 256x256
-};
-const Case kCases[] = {{"paper-load", "groom:paper-load", 5}, {"long-wavy", "groom:long-wavy", 15}, {"mohawk", "mohawk", 2}};
-
-StrandArrays load(const Case& c) {
-  if (std::string(c.source) == "mohawk") return loadStrands(hairdata("Ratboy_mohawk.tfx"), c.stride);
-  return loadStrands(c.source, c.stride);
-}
-
 class ExactAt : public testing::TestWithParam<std::tuple<int, double, int>> {};
 
 // Bounds of the issue: what is left is fp32 against float64, the 11-bit tangent and the 10-bit alpha.
 TEST_P(ExactAt, MatchesReference) {
-  const Case& c = kCases[std::get<0>(GetParam())];
+  const AssetCase& c = kAssetCases[std::get<0>(GetParam())];
   const double width = std::get<1>(GetParam());
   const HairColor color = std::get<2>(GetParam()) ? HairColor::light : HairColor::dark;
   const double factor = color == HairColor::light ? 2 : 1;
-  if (std::string(c.source) == "mohawk" && !haveHairdata("Ratboy_mohawk.tfx")) GTEST_SKIP() << "no hairdata folder: the mohawk was not tested";
-  const StrandArrays strands = load(c);
+  const StrandArrays& strands = caseStrands(c);
+  if (strands.strands() == 0) GTEST_SKIP() << "no " << c.source << ": it was not tested";
   Scene scene(strands, samples::conditionMaterial(color), frameStrands(strands, 256, 256));
   scene.setWidthScale(scene.widthScaleFor(width));
   scene.setLight(samples::kConditionLight, 1.0, 1024);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 namespace forelock::test {
 
@@ -44,6 +45,19 @@ void StrandArrays::add(const std::vector<std::array<float, 3>>& points, float ra
     radii.push_back(radius);
   }
   first_vertex.push_back(uint32_t(radii.size()));
+}
+
+const StrandArrays& caseStrands(const AssetCase& asset, bool thinned) {
+  static std::map<std::pair<std::string, bool>, StrandArrays> loaded;
+  const auto found = loaded.find({asset.name, thinned});
+  if (found != loaded.end()) return found->second;
+  std::string source = asset.source;
+  StrandArrays strands;
+  const std::string prefix = "hairdata:";
+  const bool external = source.starts_with(prefix);
+  if (external) source = hairdata(source.substr(prefix.size()));
+  if (!external || std::filesystem::exists(source)) strands = loadStrands(source, thinned ? asset.stride : 1);
+  return loaded[{asset.name, thinned}] = strands;
 }
 
 StrandArrays loadStrands(const std::string& source, uint32_t stride) {

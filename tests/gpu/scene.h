@@ -28,6 +28,17 @@ StrandArrays loadStrands(const std::string& source, uint32_t stride = 1);
 bool haveHairdata(const std::string& file);
 std::string hairdata(const std::string& file);
 
+// The grooms and files that every bound is checked on; `stride` thins one so that 5-pixel strands fit the lists at 256x256.
+struct AssetCase {
+  const char* name;
+  const char* source;
+  uint32_t stride;
+};
+inline constexpr AssetCase kAssetCases[] = {
+    {"paper-load", "groom:paper-load", 3}, {"long-wavy", "groom:long-wavy", 15}, {"mohawk", "hairdata:Ratboy_mohawk.tfx", 2}};
+// Loaded once a process. Empty where the file is absent: the caller skips, visibly.
+const StrandArrays& caseStrands(const AssetCase& asset, bool thinned = true);
+
 struct ViewSpec {
   int width = 256, height = 256;
   reference::Vec3 eye{0, 0, 1}, target{0, 0, 0}, up{0, 1, 0};

@@ -1,0 +1,148 @@
+// The paper's load at 1920x1200: fragments and pixels of the four views, error and time of core_tail against forward, the pool,
+// and every asset once at full size.
+#include "scene.h"
+
+#include "asset_source.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace forelock::test {
+namespace {
+
+using samples::HairColor;
+
+ViewSpec storedView(const char* name) {
+  const samples::Recipe recipe = samples::openRecipe("groom:paper-load");
+  for (const samples::RecipeCamera& camera : recipe.cameras) {
+    if (camera.name != name) continue;
+    ViewSpec view;
+    view.width = int(camera.width), view.height = int(camera.height);
+    view.eye = {camera.eye.x, camera.eye.y, camera.eye.z};
+    view.target = {camera.target.x, camera.target.y, camera.target.z};
+    view.up = {camera.up.x, camera.up.y, camera.up.z};
+    view.projection.tan_half_y = std::tan(camera.vertical_fov_deg * 3.14159265358979323846 / 360);
+    view.projection.near_plane = camera.near_m, view.projection.far_plane = camera.far_m;
+    return view;
+  }
+  ADD_FAILURE() << "paper-load has no camera " << name;
+  return {};
+}
+
+TEST(PaperLoad, FragmentsAndPixelsOfTheFourViews) {
+  const struct { const char* name; double fragments, pixels; } views[] = {{"35k", 1.05e6, 35e3}, {"78k", 1.95e6, 78e3}, {"198k", 3.96e6, 198e3}, {"365k", 6.57e6, 365e3}};
+  for (const auto& v : views) {
+    Scene scene(caseStrands(kAssetCases[0], false), samples::conditionMaterial(HairColor::dark), storedView(v.name));
+    FlkFrame frame{};
+    frame.display = FLK_DISPLAY_LAYERS;
+    const std::vector<float> image = scene.render(frame);
+    double pixels = 0;
+    for (std::size_t i = 3; i < image.size(); i += 4) pixels += image[i] > 0;
+    const double fragments = double(scene.statistics.fragments);
+    std::printf("ROW paper-load %s: fragments %.3f M (%+.1f %%), hair pixels %.1f k (%+.1f %%), mean overdraw %.1f\n", v.name, fragments / 1e6,
+                100 * (fragments / v.fragments - 1), pixels / 1e3, 100 * (pixels / v.pixels - 1), fragments / pixels);
+    EXPECT_NEAR(fragments / v.fragments, 1, 0.1);
+    EXPECT_NEAR(pixels / v.pixels, 1, 0.1);
+  }
+}
+
+// Of the paper: deferring gains 1.75 at an error of 9. Times in pairs, because the machine may be busy.
+TEST(PaperLoad, CoreTailAgainstForward) {
+  Scene scene(caseStrands(kAssetCases[0], false), samples::conditionMaterial(HairColor::dark), storedView("198k"));
+  scene.setLight(samples::kConditionLight, 1.0, 1024);
+  const reference::FragmentLists lists = scene.gather();
+  const std::vector<reference::ShadowMap> own = reference::renderShadowMaps(scene.reference_scene);
+  reference::ResolveOptions options;
+  const reference::Image unit = reference::resolve(scene.reference_scene, scene.camera, own, lists, options);
+  double sum = 0, pixels = 0;
+  for (const reference::Pixel& p : unit.pixels)
+    if (p.fragments) sum += (p.rgb[0] + p.rgb[1] + p.rgb[2]) / 3, pixels += 1;
+  const double radiance = samples::conditionMean(HairColor::dark) * pixels / sum;
+  scene.setLight(samples::kConditionLight, radiance, 1024);
+  const std::vector<reference::ShadowMap> maps = reference::renderShadowMaps(scene.reference_scene);
+  options.method = reference::Method::forward;
+  const reference::Image forward_reference = reference::resolve(scene.reference_scene, scene.camera, maps, lists, options);
+  options.method = reference::Method::exact;
+  const reference::Image exact_reference = reference::resolve(scene.reference_scene, scene.camera, maps, lists, options);
+
+  FlkFrame frame{};
+  frame.timestamps = 1;
+  std::vector<double> ratios;
+  reference::Image core_tail, forward;
+  double stage[2][FLK_STAGE_COUNT] = {};
+  for (int pair = 0; pair < 4; ++pair) {
+    double total[2] = {};
+    for (int which = 0; which < 2; ++which) {
+      frame.method = which ? FLK_METHOD_CORE_TAIL : FLK_METHOD_FORWARD;
+      const std::vector<float> image = scene.render(frame);
+      for (int s = 0; s < FLK_STAGE_COUNT; ++s) total[which] += std::max(scene.statistics.milliseconds[s], 0.0), stage[which][s] = scene.statistics.milliseconds[s];
+      (which ? core_tail : forward) = scene.toImage(image);
+    }
+    if (pair > 0) ratios.push_back(total[0] / total[1]);  // the first compiles
+  }
+  std::sort(ratios.begin(), ratios.end());
+  frame.method = FLK_METHOD_EXACT;
+  const reference::Image exact = scene.toImage(scene.render(frame));
+  const reference::Difference d = reference::compare(core_tail, forward_reference);
+  std::printf("ROW 198k core_tail k 8 against R_forward: rmse %.2f; against R_exact %.2f; forward against R_forward %.3f; exact against R_exact %.3f p99.9 %.3f\n",
+              d.rmse, reference::compare(core_tail, exact_reference).rmse, reference::compare(forward, forward_reference).rmse,
+              reference::compare(exact, exact_reference).rmse, reference::compare(exact, exact_reference).p999);
+  std::printf("ROW 198k forward / core_tail time: %.2f (of %.2f %.2f %.2f)\n", ratios[1], ratios[0], ratios[1], ratios[2]);
+  for (int which = 0; which < 2; ++which)
+    std::printf("ROW 198k %s ms: clear %.1f shadow %.1f capture %.1f resolve %.1f\n", which ? "core_tail" : "forward", stage[which][0], stage[which][1], stage[which][2], stage[which][3]);
+  EXPECT_LE(d.rmse, 9);
+  EXPECT_GE(ratios[1], 1.75);
+  EXPECT_LE(reference::compare(exact, exact_reference).rmse, 1.0);
+
+  FlkPlanInfo info{};
+  flkPlanGetInfo(scene.plan, &info);
+  uint64_t nodes = 0, heads = 0;
+  for (uint32_t i = 0; i < info.resource_count; ++i) {
+    FlkResourceInfo resource{};
+    flkPlanGetResource(scene.plan, i, &resource);
+    if (std::string(resource.name) == "nodes") nodes = resource.bytes;
+    if (std::string(resource.name) == "heads") heads = resource.bytes;
+  }
+  const double bound = 1.25 * 12 * double(scene.statistics.fragments);
+  std::printf("ROW 198k pool: nodes %.1f MB of at most %.1f MB, heads %.2f MB for %u x %u\n", double(nodes) / 1e6, bound / 1e6, double(heads) / 1e6, info.rect[2], info.rect[3]);
+  EXPECT_LE(double(nodes), bound);
+  EXPECT_EQ(heads, uint64_t(info.rect[2]) * info.rect[3] * 4);
+}
+
+TEST(FullSize, EveryAssetAgainstItsReferences) {
+  for (const AssetCase& c : kAssetCases) {
+    const StrandArrays& strands = caseStrands(c, false);
+    if (strands.strands() == 0) {
+      std::printf("ROW full size %s: NOT TESTED, the file is absent\n", c.name);
+      continue;
+    }
+    const bool paper = std::string(c.name) == "paper-load";
+    Scene scene(strands, samples::conditionMaterial(HairColor::dark), paper ? storedView("35k") : frameStrands(strands, 1920, 1200));
+    scene.setLight(samples::kConditionLight, 1.0, 1024);
+    const reference::FragmentLists lists = scene.gather();
+    const std::vector<reference::ShadowMap> unit_maps = reference::renderShadowMaps(scene.reference_scene);
+    reference::ResolveOptions options;
+    const reference::Image unit = reference::resolve(scene.reference_scene, scene.camera, unit_maps, lists, options);
+    double sum = 0, pixels = 0;
+    for (const reference::Pixel& p : unit.pixels)
+      if (p.fragments) sum += (p.rgb[0] + p.rgb[1] + p.rgb[2]) / 3, pixels += 1;
+    scene.setLight(samples::kConditionLight, samples::conditionMean(HairColor::dark) * pixels / sum, 1024);
+    FlkFrame frame{};
+    frame.method = FLK_METHOD_EXACT;
+    const reference::Image actual = scene.toImage(scene.render(frame));
+    const std::vector<reference::ShadowMap> fed{scene.readShadowMap()};
+    const reference::Difference shading = reference::compare(actual, reference::resolve(scene.reference_scene, scene.camera, fed, lists, options));
+    const reference::Difference whole = reference::compare(actual, reference::resolve(scene.reference_scene, scene.camera, reference::renderShadowMaps(scene.reference_scene), lists, options));
+    std::printf("ROW full size %s: fragments %.2f M, pixels %zu, exact fed rmse %.3f p99.9 %.3f | own rmse %.3f p99.9 %.3f\n", c.name,
+                double(scene.statistics.fragments) / 1e6, shading.pixels, shading.rmse, shading.p999, whole.rmse, whole.p999);
+    EXPECT_LE(shading.rmse, 0.5);
+    EXPECT_LE(shading.p999, 3);
+    EXPECT_LE(whole.rmse, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace forelock::test

@@ -6,10 +6,13 @@ cd "$(dirname "$0")/.."
 
 install=1
 fuzz_seconds=15
+sanitized='test_(asset|plan|groom|api)'
 for argument in "$@"; do
   case $argument in
     --no-install) install=0 ;;
-    --full) fuzz_seconds=240 ;;
+    --full)
+      fuzz_seconds=240
+      sanitized='test_(asset|plan|groom|api|reference)' ;;
     -h | --help)
       cat <<'TEXT'
 usage: sh tests/run.sh [--full] [--no-install]
@@ -21,7 +24,7 @@ Installs the Debian packages that are missing, then
 Exits with 0 when all passed. A second run installs and rebuilds nothing. To run less:
   ctest --test-dir build -L LABEL     labels: ctest --test-dir build --print-labels
 
-  --full         longer fuzzing (4 minutes a target instead of 15 seconds)
+  --full         longer fuzzing (4 minutes a target instead of 15 seconds), and sanitizers on the float64 reference too
   --no-install   install nothing; fails later if something is missing
 TEXT
       exit 0 ;;
@@ -83,7 +86,7 @@ say "2. rooms without a GPU, with AddressSanitizer and UBSan, in build/sanitize"
 # -O1: half the time to compile, and the stacks stay readable.
 configure build/sanitize -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-O1 -g1" -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
   -DFORELOCK_SANITIZE=address,undefined
-targets=$(testsOf build/sanitize 'test_(asset|reference|plan|groom|api)')
+targets=$(testsOf build/sanitize "$sanitized")
 [ -n "$targets" ] || fail "no test to build with sanitizers"
 build build/sanitize $targets
 runTests build/sanitize -R "^($(echo $targets | tr ' ' '|'))\$"

@@ -67,6 +67,7 @@ glm::vec3 shadePoint(const BustLook& look, const glm::vec3& to_light, const glm:
   const float far_gap = shape::bust<float>(p + normal * 0.045f) / 0.045f;
   const float open = std::clamp(0.35f + 0.30f * near_gap + 0.35f * far_gap, 0.0f, 1.0f);
   float lit = std::max(glm::dot(normal, to_light), 0.0f);
+  float through = 1.0f;
   if (lit > 0.0f) {
     float t = 0.004f;
     float visible = 1.0f;
@@ -76,13 +77,17 @@ glm::vec3 shadePoint(const BustLook& look, const glm::vec3& to_light, const glm:
       t += std::max(1.2f * d, 0.010f);
     }
     lit *= std::clamp(visible, 0.0f, 1.0f);
+    if (look.light_through_hair && lit > 0.0f) {
+      through = std::clamp(look.light_through_hair(p), 0.0f, 1.0f);
+      lit *= through;
+    }
   }
   const float sky = 0.6f + 0.4f * normal.y;
   const glm::vec3 half = glm::normalize(to_light + to_eye);
   const float cosine = std::max(glm::dot(normal, half), 0.0f);
   const float square = cosine * cosine;
   const float gloss = 0.05f * lit * square * square * square * square;
-  const glm::vec3 arriving = look.light * (lit * 0.3183099f) + look.ambient * (sky * open);
+  const glm::vec3 arriving = look.light * (lit * 0.3183099f) + look.ambient * (sky * open * (0.4f + 0.6f * through));  // what hides the light hides much of the sky
   return look.albedo * arriving + look.light * (gloss * 0.3183099f);
 }
 
@@ -156,6 +161,13 @@ BustImage drawBust(const Camera& camera, uint32_t width, uint32_t height, const 
 void bustBounds(float min_bounds[3], float max_bounds[3]) {
   const float low[3] = {-0.25f, -0.43f, -0.15f};
   const float high[3] = {0.25f, 0.11f, 0.12f};
+  std::copy(low, low + 3, min_bounds);
+  std::copy(high, high + 3, max_bounds);
+}
+
+void headBounds(float min_bounds[3], float max_bounds[3]) {
+  const float low[3] = {-0.085f, -0.125f, -0.11f};
+  const float high[3] = {0.085f, 0.11f, 0.105f};
   std::copy(low, low + 3, min_bounds);
   std::copy(high, high + 3, max_bounds);
 }

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace forelock::samples {
@@ -16,6 +17,8 @@ struct BustLook {
   glm::vec3 to_light{0.45f, 0.65f, 0.62f};
   glm::vec3 light{2.2f, 2.1f, 2.0f};      // radiance leaving a white surface that faces the light, times pi
   glm::vec3 ambient{0.16f, 0.17f, 0.19f};
+  // Share of the light that hair lets through to a point (world, m) [0, 1]; none: all of it. Called from any thread.
+  std::function<float(const glm::vec3& point)> light_through_hair;
 };
 
 struct BustImage {
@@ -27,5 +30,8 @@ BustImage drawBust(const Camera& camera, uint32_t width, uint32_t height, const 
 
 // Box around the bust's head and shoulders (m), for framing together with hair.
 void bustBounds(float min_bounds[3], float max_bounds[3]);
+
+// Box around the head alone, crown to chin (m).
+void headBounds(float min_bounds[3], float max_bounds[3]);
 
 }  // namespace forelock::samples

@@ -98,6 +98,70 @@ Camera frameBounds(const float min_bounds[3], const float max_bounds[3], double 
   return camera;
 }
 
+namespace {
+
+// The direction from what is looked at to the camera.
+glm::dvec3 viewFrom(double azimuth, double elevation, UpAxis up_axis) {
+  const double flat = std::cos(elevation);
+  const glm::dvec3 from(flat * std::sin(azimuth), std::sin(elevation), flat * std::cos(azimuth));
+  return up_axis == UpAxis::Z ? glm::dvec3(from.x, -from.z, from.y) : from;
+}
+
+}  // namespace
+
+Camera framePoints(const FramedPoints& framed, double azimuth, double elevation, UpAxis up_axis, double vertical_fov,
+                   double aspect, double margin, uint32_t turns) {
+  glm::dvec3 low(1e30), high(-1e30);
+  for (const glm::vec3& p : framed.points) {
+    low = glm::min(low, glm::dvec3(p));
+    high = glm::max(high, glm::dvec3(p));
+  }
+  const glm::dvec3 middle = (low + high) * 0.5;
+  const double tan_y = std::tan(0.5 * vertical_fov) / margin;
+  const double tan_x = tan_y * aspect;
+  // A point at (x, y, z), z towards the camera, is seen from (cx, cy, d) where |x - cx| <= tan_x (d - z), likewise y: the
+  // most of x + tan_x z and of -x + tan_x z over all points bound d and cx.
+  double right = 0.0, left = 0.0, above = 0.0, below = 0.0, nearest = -1e30, farthest = 1e30;
+  bool first = true;
+  Camera camera;
+  CameraBasis basis;
+  constexpr double turn = 6.28318530717958648;
+  for (uint32_t i = std::max(turns, 1u); i-- > 0;) {  // the first comes last: its basis is kept
+    const glm::dvec3 from = viewFrom(azimuth + turn * i / std::max(turns, 1u), elevation, up_axis);
+    camera = frameBounds(&glm::vec3(low)[0], &glm::vec3(high)[0], azimuth + turn * i / std::max(turns, 1u), elevation,
+                         up_axis, vertical_fov, aspect, margin);
+    camera.target = middle;
+    camera.eye = middle + from;
+    basis = cameraBasis(camera);
+    for (const glm::vec3& point : framed.points) {
+      const glm::dvec3 p = glm::dvec3(point) - middle;
+      const double x = glm::dot(p, basis.right), y = glm::dot(p, basis.up), z = glm::dot(p, basis.back);
+      const double reach = framed.radius * (1.0 + tan_x);
+      if (first) {
+        right = left = above = below = -1e30;
+        first = false;
+      }
+      right = std::max(right, x + tan_x * z + reach);
+      left = std::max(left, -x + tan_x * z + reach);
+      above = std::max(above, y + tan_y * z + reach);
+      below = std::max(below, -y + tan_y * z + reach);
+      nearest = std::max(nearest, z);
+      farthest = std::min(farthest, z);
+    }
+  }
+  if (turns > 1) {  // the axis stays in the middle of the picture
+    right = left = std::max(right, left);
+  }
+  const double size = glm::length(high - low) + 2.0 * framed.radius;
+  const double floor = nearest + std::max(0.05 * size, 1e-4);
+  const double distance = std::max({(right + left) / (2.0 * tan_x), (above + below) / (2.0 * tan_y), floor});
+  camera.target = middle + basis.right * (0.5 * (right - left)) + basis.up * (0.5 * (above - below));
+  camera.eye = camera.target + basis.back * distance;
+  camera.near_m = std::max(distance - nearest - 0.1 * size, 0.01 * distance);
+  camera.far_m = distance - farthest + 0.1 * size + 1e-4;
+  return camera;
+}
+
 Camera fromRecipeCamera(const RecipeCamera& stored) {
   Camera camera;
   camera.eye = stored.eye;

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace forelock::samples {
 
@@ -43,6 +44,18 @@ enum class UpAxis { Y, Z };
 // enclose the box with room to spare. `margin` 1.05 leaves 5 % around.
 Camera frameBounds(const float min_bounds[3], const float max_bounds[3], double azimuth, double elevation,
                    UpAxis up_axis, double vertical_fov, double aspect, double margin);
+
+// Points that a camera is to see, and how far each reaches around (m).
+struct FramedPoints {
+  const std::vector<glm::vec3>& points;
+  double radius;
+};
+
+// Like frameBounds, but as close as the points themselves allow and centred on what is seen. With `turns` above 1 the
+// camera is the first of that many around the up axis through the middle of the points, all at the same distance and
+// height, and each sees all points.
+Camera framePoints(const FramedPoints& framed, double azimuth, double elevation, UpAxis up_axis, double vertical_fov,
+                   double aspect, double margin, uint32_t turns);
 
 Camera fromRecipeCamera(const RecipeCamera& stored);
 

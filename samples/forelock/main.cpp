@@ -7,12 +7,14 @@
 namespace {
 
 constexpr const char* kDescription =
-    "Forelock looks at, checks, converts and makes strand hair.\n\n"
+    "Forelock draws, checks, converts and makes strand hair.\n\n"
     "An ASSET is a strand file (.tfx, .hair), a groom recipe (.json) or groom:NAME for a recipe that comes with\n"
     "Forelock; `forelock groom --list` names them.";
 
 constexpr const char* kExamples =
     "Examples:\n"
+    "  forelock preview groom:long-wavy -o hair.png     a picture, framed and lit by itself\n"
+    "  forelock plan groom:long-wavy             the passes and bytes that it takes; needs no device\n"
     "  forelock inspect pony.tfx                 what is in a file, and what is wrong with it\n"
     "  forelock convert pony.tfx pony.hair       another format; says what is lost\n"
     "  forelock groom long-wavy hair.hair        write a procedural groom to a strand file\n\n"
@@ -32,6 +34,8 @@ int main(int argc, char** argv) {
            std::to_string(version & 0xfff);
   });
   int exit_code = kDone;
+  addPreviewCommand(program, exit_code);
+  addPlanCommand(program, exit_code);
   addInspectCommand(program, exit_code);
   addConvertCommand(program, exit_code);
   addGroomCommand(program, exit_code);

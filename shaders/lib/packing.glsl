@@ -4,10 +4,12 @@
 #include "../shared/node.h"
 
 // Octahedral map of the unit sphere (Meyer et al. 2010, "On floating-point normal vectors"), two components of `bits` bits
-// on an odd number of levels, which codes the axes exactly. The zero vector codes as +z.
+// on an odd number of levels, which codes the axes exactly. What is no direction (zero, NaN, infinite) takes the code that this
+// leaves free, all bits set, and decodes as zero.
 uint octEncode(vec3 v, int bits) {
   float sum = abs(v.x) + abs(v.y) + abs(v.z);
-  vec2 p = sum > 0.0 ? v.xy / sum : vec2(0.0);
+  if (!(sum > 0.0) || isinf(sum)) return (1u << 2 * bits) - 1u;  // also NaN
+  vec2 p = v.xy / sum;
   if (v.z < 0.0) p = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
   float steps = float((1 << bits) - 2);
   uvec2 q = uvec2(clamp((p * 0.5 + 0.5) * steps + 0.5, vec2(0.0), vec2(steps)));
@@ -17,6 +19,7 @@ uint octEncode(vec3 v, int bits) {
 vec3 octDecode(uint code, int bits) {
   float steps = float((1 << bits) - 2);
   uint mask = (1u << bits) - 1u;
+  if ((code & mask) == mask) return vec3(0.0);  // no direction
   vec2 p = vec2(float(code & mask), float(code >> bits & mask)) / steps * 2.0 - 1.0;
   vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
   if (v.z < 0.0) v.xy = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
@@ -47,22 +50,31 @@ void unpackTangent(uint payload, int coding, out vec3 tangent, out float alpha) 
 }
 
 uint alphaCodeColor(float alpha, int coding) {
-  return coding == FLK_CODING_PAPER ? encodeAlphaLinear(alpha) : encodeAlphaRoot(alpha, 255.0);
+  return coding == FLK_CODING_PAPER ? encodeAlphaLinear(alpha) : encodeAlphaRoot(alpha, 511.0);
 }
 
-uint packColor(vec3 radiance, uint alpha_code, float exposure, int coding) {
-  vec3 c = radiance * exposure;
-  c = coding == FLK_CODING_PAPER ? clamp(c, 0.0, 1.0) : sqrt(clamp(c / FLK_FORWARD_RANGE, 0.0, 1.0));
-  uvec3 q = uvec3(c * 255.0 + 0.5);
-  return q.x | q.y << 8 | q.z << 16 | alpha_code << 24;
+// range > 0: the radiance that codes as 1; more is cut.
+uint packColor(vec3 radiance, uint alpha_code, float range, int coding) {
+  vec3 c = clamp(radiance / range, 0.0, 1.0);
+  if (coding == FLK_CODING_PAPER) {
+    uvec3 q = uvec3(c * 255.0 + 0.5);
+    return q.x | q.y << 8 | q.z << 16 | alpha_code << 24;
+  }
+  // A bit of blue, the channel that hair has least of, goes to alpha, which thin strands need.
+  uvec3 q = uvec3(sqrt(c) * vec3(255.0, 255.0, 127.0) + 0.5);
+  return q.x | q.y << 8 | q.z << 16 | alpha_code << 23;
 }
 
-void unpackColor(uint payload, float exposure, int coding, out vec3 radiance, out float alpha) {
-  vec3 c = vec3(float(payload & 255u), float(payload >> 8 & 255u), float(payload >> 16 & 255u)) / 255.0;
-  float a = float(payload >> 24) / 255.0;
-  bool paper = coding == FLK_CODING_PAPER;
-  radiance = (paper ? c : c * c * FLK_FORWARD_RANGE) / exposure;  // exposure > 0, checked by the API
-  alpha = paper ? a : a * a;
+void unpackColor(uint payload, float range, int coding, out vec3 radiance, out float alpha) {
+  if (coding == FLK_CODING_PAPER) {
+    radiance = vec3(float(payload & 255u), float(payload >> 8 & 255u), float(payload >> 16 & 255u)) / 255.0 * range;
+    alpha = float(payload >> 24) / 255.0;
+  } else {
+    vec3 c = vec3(float(payload & 255u) / 255.0, float(payload >> 8 & 255u) / 255.0, float(payload >> 16 & 127u) / 127.0);
+    float a = float(payload >> 23) / 511.0;
+    radiance = c * c * range;
+    alpha = a * a;
+  }
 }
 
 #endif

@@ -3,10 +3,10 @@
 #define FORELOCK_LIB_PROJECTION
 #include "../shared/frame.h"
 
-// Pixel position of a view-space point at depth d = -p.z > 0.
+// Pixel position, from the middle of the target (where fp32 is finest), of a view-space point at depth -p.z > 0.
 vec2 projectToPixel(vec3 p, vec2 scale, vec2 offset, float orthographic, vec2 size) {
   vec2 ndc = orthographic > 0.5 ? p.xy * scale + offset : (p.xy * scale + p.z * offset) / -p.z;
-  return (ndc * 0.5 + 0.5) * size;
+  return ndc * 0.5 * size;
 }
 
 // Pixels from the projection of p to that of p + d, without the cancellation of two projections.

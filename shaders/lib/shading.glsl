@@ -9,7 +9,13 @@
 float lobe(float cosine, float sine, float exponent) {
   if (!(cosine > 0.0)) return 0.0;
   float q = min(sine * sine / (1.0 + cosine), 1.0);  // 1 - cosine
-  return powOneMinus(q, exponent);
+  return powOneMinus(q, clamp(exponent, 0.0, 1e6));  // infinity times log 1 would be NaN
+}
+
+// A unit vector, and not zero, NaN or infinite.
+bool isDirection(vec3 v) {
+  float square = dot(v, v);
+  return square > 0.5 && square < 2.0;
 }
 
 struct StrandAngles {
@@ -18,10 +24,10 @@ struct StrandAngles {
   vec2 trt;
 };
 
-// T, L, V unit vectors, or T zero: then diffuse only (no direction to reflect about).
+// T, L, V unit vectors, or T none: then diffuse only (no direction to reflect about).
 StrandAngles strandAngles(vec3 T, vec3 L, vec3 V, vec2 turn_r, vec2 turn_trt) {
   StrandAngles s;
-  if (dot(T, T) < 0.5) {
+  if (!isDirection(T)) {
     s.diffuse = 1.0;
     s.r = vec2(-1.0, 0.0);
     s.trt = vec2(-1.0, 0.0);
@@ -48,7 +54,7 @@ vec3 shadeFull(HairConstants hair, vec3 T, vec3 L, vec3 V, vec3 light, vec3 ambi
 }
 
 vec3 shadeLow(HairConstants hair, vec3 T, vec3 L, vec3 light, vec3 ambient) {
-  float sine = dot(T, T) < 0.5 ? 1.0 : min(length(cross(T, L)), 1.0);
+  float sine = isDirection(T) ? min(length(cross(T, L)), 1.0) : 1.0;
   vec3 diffuse = hair.diffuse * hair.color;
   return light * diffuse * sine + ambient * diffuse;
 }

@@ -14,7 +14,7 @@ float shadowBias(vec3 T, vec3 L, float texel) {
   return texel * abs(dot(T, L)) / max(length(cross(T, L)), 0.1);
 }
 
-// `position` in texels and metre, `range` the metres of a full depth value.
+// `position` in texels from the middle of the map and metre, `range` the metres of a full depth value.
 float shadowTap(texture2D map, ivec2 texel, int size, float depth, float range, float fibres_per_metre, float log2_transmittance) {
   if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(size)))) return 1.0;
   float front = texelFetch(map, texel, 0).r;
@@ -22,9 +22,10 @@ float shadowTap(texture2D map, ivec2 texel, int size, float depth, float range, 
   return fibreTransmittance((depth - front * range) * fibres_per_metre, log2_transmittance);
 }
 
-// A far position must not wrap when it becomes an integer.
+// `position` from the middle of the map. A far one must not wrap when it becomes an integer.
 ivec2 shadowTexel(vec2 position, int size) {
-  return ivec2(floor(clamp(position, vec2(-8.0), vec2(float(size) + 8.0))));
+  float most = float(size) * 0.5 + 8.0;
+  return ivec2(floor(clamp(position, vec2(-most), vec2(most)))) + size / 2;
 }
 
 float shadowFull(texture2D map, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance) {

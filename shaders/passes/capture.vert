@@ -7,7 +7,7 @@
 #include "../lib/strand_quad.glsl"
 #include "../lib/strand_vertex.glsl"
 
-layout(location = 0) flat out vec4 out_axis;      // a.xy, b.xy (pixel)
+layout(location = 0) flat out vec4 out_axis;      // a.xy, b.xy (pixel from the middle of the target)
 layout(location = 1) flat out vec4 out_lines;     // normals of the lines that end the quad at a, at b
 layout(location = 2) flat out vec4 out_extent;    // half widths, distances to the strand's root and tip (pixel)
 layout(location = 3) flat out vec4 out_depth;     // depths (metre), fractions
@@ -95,7 +95,7 @@ void main() {
     end_b = jointEnd(segment.b, side, max(hb + extent, h_other + pixelHalfExtent(other.t)), segment, other, true);
   }
 
-  gl_Position = vec4((at_b ? end_b.corner : end_a.corner) / frame.size * 2.0 - 1.0, 0.0, 1.0);
+  gl_Position = vec4((at_b ? end_b.corner : end_a.corner) / frame.size * 2.0, 0.0, 1.0);
   out_axis = vec4(segment.a, segment.b);
   out_lines = vec4(end_a.line, end_b.line);
   // Distances to the strand's ends, as if all of it ran as this segment does; a segment that the fraction's steps do not tell

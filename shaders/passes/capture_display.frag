@@ -21,7 +21,7 @@ layout(location = 5) flat in vec4 in_tangent_b;
 layout(location = 6) flat in vec2 in_direction;
 
 void main() {
-  StrandFragment f = strandFragment(gl_FragCoord.xy, in_axis, in_lines, in_extent, in_depth, in_tangent_a.xyz, in_tangent_b,
+  StrandFragment f = strandFragment(gl_FragCoord.xy - frame.size * 0.5, in_axis, in_lines, in_extent, in_depth, in_tangent_a.xyz, in_tangent_b,
                                     in_direction, frame.orthographic);
   float opacity = mix(frame.hairs[hair_slot].opacity_root, frame.hairs[hair_slot].opacity_tip, f.fraction);
   uint alpha = alphaCodeColor(clamp(f.coverage * opacity, 0.0, 1.0), FLK_CODING_DEFAULT);
@@ -31,5 +31,5 @@ void main() {
   else if (kDisplay == FLK_SHOW_ROOT_TIP) color = rootTipColor(f.fraction);
   else if (kDisplay == FLK_SHOW_WIDTH) color = widthColor(f.width_px);
   else if (kDisplay == FLK_SHOW_DEPTH) color = depthColor(f.depth, frame.depth_range);
-  storeFragment(f.depth, packColor(color / frame.exposure, alpha, frame.exposure, FLK_CODING_DEFAULT));
+  storeFragment(f.depth, packColor(color, alpha, frame.color_range, FLK_CODING_DEFAULT));
 }

@@ -16,10 +16,11 @@ void storeFragment(float depth, uint payload) {
   if (index >= frame.node_capacity) return;
   uvec2 pixel = uvec2(gl_FragCoord.xy) - frame.rect.xy;  // the scissor keeps it inside
   uint previous = atomicExchange(heads[pixel.y * frame.rect.z + pixel.x], hair_slot << FLK_LINK_SLOT_SHIFT | index);
+  NodePool nodes = NodePool(frame.node_pool);
   uint base = index * FLK_NODE_WORDS;
-  nodes[base] = floatBitsToUint(depth);
-  nodes[base + 1u] = payload;
-  nodes[base + 2u] = previous;
+  nodes.words[base] = floatBitsToUint(depth);
+  nodes.words[base + 1u] = payload;
+  nodes.words[base + 2u] = previous;
 }
 
 #endif

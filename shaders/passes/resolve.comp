@@ -20,7 +20,7 @@ layout(constant_id = FLK_SPEC_K_SORT) const uint kSort = 8;
 
 void fragmentColor(uvec3 key, vec2 center, bool full, out vec3 color, out float alpha) {
 #ifdef FLK_FORWARD
-  unpackColor(key.z, frame.exposure, kPayload, color, alpha);
+  unpackColor(key.z, frame.color_range, kPayload, color, alpha);
 #else
   vec3 tangent;
   unpackTangent(key.z, kPayload, tangent, alpha);
@@ -36,6 +36,7 @@ void main() {
   uint link = heads[pixel.y * frame.rect.z + pixel.x];
   if (link == FLK_LINK_END) return;
   vec2 center = vec2(pixel + frame.rect.xy) + 0.5;
+  NodePool nodes = NodePool(frame.node_pool);
 
   uvec3 core[kSort];
   for (uint i = 0; i < kSort; ++i) core[i] = kKeyNone;
@@ -44,8 +45,8 @@ void main() {
 
   while (link != FLK_LINK_END) {
     uint base = (link & FLK_LINK_INDEX_MASK) * FLK_NODE_WORDS;
-    uvec3 key = uvec3(nodes[base], link >> FLK_LINK_SLOT_SHIFT, nodes[base + 1u]);
-    link = nodes[base + 2u];
+    uvec3 key = uvec3(nodes.words[base], link >> FLK_LINK_SLOT_SHIFT, nodes.words[base + 1u]);
+    link = nodes.words[base + 2u];
     if (keyLess(key, core[kSort - 1u])) {
       for (uint i = 0; i < kSort; ++i) {  // swapped through: constant indices stay in registers
         uvec3 held = core[i];

@@ -23,6 +23,7 @@ void main() {
   uint head = heads[pixel.y * frame.rect.z + pixel.x];
   if (head == FLK_LINK_END) return;
   vec2 center = vec2(pixel + frame.rect.xy) + 0.5;
+  NodePool nodes = NodePool(frame.node_pool);
 
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;
@@ -35,8 +36,8 @@ void main() {
     uint farther = 0u, equal = 0u;
     for (uint link = head; link != FLK_LINK_END;) {
       uint base = (link & FLK_LINK_INDEX_MASK) * FLK_NODE_WORDS;
-      uvec3 key = uvec3(nodes[base], link >> FLK_LINK_SLOT_SHIFT, nodes[base + 1u]);
-      link = nodes[base + 2u];
+      uvec3 key = uvec3(nodes.words[base], link >> FLK_LINK_SLOT_SHIFT, nodes.words[base + 1u]);
+      link = nodes.words[base + 2u];
       if (key == last) ++equal;
       if (!keyLess(last, key)) continue;
       ++farther;

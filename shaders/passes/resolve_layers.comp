@@ -11,9 +11,10 @@
 void main() {
   uvec2 pixel;
   if (!tilePixel(frame.rect.zw, pixel)) return;
+  NodePool nodes = NodePool(frame.node_pool);
   uint count = 0u;
   for (uint link = heads[pixel.y * frame.rect.z + pixel.x]; link != FLK_LINK_END;
-       link = nodes[(link & FLK_LINK_INDEX_MASK) * FLK_NODE_WORDS + 2u])
+       link = nodes.words[(link & FLK_LINK_INDEX_MASK) * FLK_NODE_WORDS + 2u])
     ++count;
-  if (count > 0u) compositePixel(pixel, layersColor(count) / frame.exposure, 0.0);
+  if (count > 0u) compositePixel(pixel, layersColor(count), 0.0);
 }

@@ -6,7 +6,7 @@
 #include "../lib/strand_quad.glsl"
 #include "../lib/strand_vertex.glsl"
 
-layout(location = 0) flat out vec4 out_axis;  // a.xy, b.xy (texel)
+layout(location = 0) flat out vec4 out_axis;  // a.xy, b.xy (texel from the middle of the map)
 layout(location = 1) flat out vec4 out_lines; // normals of the lines that end the quad
 layout(location = 2) flat out vec4 out_depth; // depths (metre), half widths (texel)
 layout(location = 3) flat out vec3 out_direction; // unit, a to b; length (texel)
@@ -43,7 +43,7 @@ void main() {
   // The sides are tested in the fragment shader too, and drawn as much too far.
   vec2 corner = (at_b ? end_b.corner : end_a.corner) + side * kCornerSlack * leftNormal(segment.t);
 
-  gl_Position = vec4(corner / float(frame.shadow_size) * 2.0 - 1.0, 0.0, 1.0);
+  gl_Position = vec4(corner / float(frame.shadow_size) * 2.0, 0.0, 1.0);
   out_axis = vec4(segment.a, segment.b);
   out_lines = vec4(end_a.line, end_b.line);
   out_depth = vec4(a.z, b.z, ha, hb);

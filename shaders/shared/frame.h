@@ -9,7 +9,7 @@ namespace forelock::gpu {
 
 struct HairConstants {
   mat4x3 view_from_hair;
-  mat4x3 texels_from_hair;  // shadow map: x, y in texels, z in metre
+  mat4x3 texels_from_hair;  // shadow map: x, y in texels from its middle, z in metre
   float radius_max;         // metre in view space, material's scale included
   float opacity_root;
   float opacity_tip;
@@ -34,8 +34,9 @@ struct FrameConstants {
   vec2 size;            // pixels of the target
   vec2 pixels_per_unit; // |P00| W / 2, |P11| H / 2
   uvec4 rect;           // x, y, width, height in pixels: where heads exist
+  uvec2 node_pool;      // device address: a storage buffer binding may be limited to 128 MiB
   uint node_capacity;
-  float exposure;
+  float color_range;    // of 8-bit colours: the radiance that codes as 1
   vec2 depth_range;     // nearest and farthest hair (metre), for FLK_DISPLAY_DEPTH
   vec3 light_direction; // view space, to the light
   float shadow_texel;   // metre
@@ -49,7 +50,7 @@ struct FrameConstants {
 
 #ifdef __cplusplus
 static_assert(sizeof(HairConstants) == 164);
-static_assert(sizeof(FrameConstants) == 176 + FLK_MAX_HAIRS * sizeof(HairConstants));
+static_assert(sizeof(FrameConstants) == 184 + FLK_MAX_HAIRS * sizeof(HairConstants));
 }  // namespace forelock::gpu
 #endif
 #endif

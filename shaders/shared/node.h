@@ -19,7 +19,4 @@
 #define FLK_CODING_DEFAULT 0
 #define FLK_CODING_PAPER 1
 
-// Colours of FLK_METHOD_FORWARD reach this many times the exposed white in the default coding.
-#define FLK_FORWARD_RANGE 4.0
-
 #endif

@@ -6,6 +6,7 @@
 namespace forelock::gpu {
 using uint = std::uint32_t;
 struct vec2 { float x, y; };
+struct uvec2 { uint x, y; };
 struct vec3 { float x, y, z; };
 struct vec4 { float x, y, z, w; };
 struct uvec4 { uint x, y, z, w; };

@@ -191,7 +191,11 @@ TEST_F(Recording, nothingInView) {
     EXPECT_EQ(barrier.oldLayout, frame.target.entry.layout);
     EXPECT_EQ(barrier.newLayout, frame.target.exit.layout);
     FlkStatistics statistics;
-    EXPECT_EQ(flkViewGetStatistics(view, number, &statistics), FLK_NOT_READY);
+    ASSERT_EQ(flkViewGetStatistics(view, number, &statistics), FLK_SUCCESS);
+    EXPECT_EQ(statistics.frame_number, number);
+    EXPECT_EQ(statistics.fragments, 0u);
+    EXPECT_EQ(statistics.fragments_lost, 0u);
+    for (const double time : statistics.milliseconds) EXPECT_EQ(time, -1.0);
   }
 }
 

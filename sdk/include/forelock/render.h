@@ -34,7 +34,8 @@ typedef struct FlkRequirements {
   uint32_t api_version;                       /* least Vulkan version of instance and device: 1.3 */
   VkQueueFlags queue_flags;                   /* of the queue family that flkCmdRender's command buffers go to */
   VkPhysicalDeviceFeatures features;          /* to enable: fragmentStoresAndAtomics */
-  VkPhysicalDeviceVulkan12Features features12;/* to enable: scalarBlockLayout (sType set, pNext NULL) */
+  VkPhysicalDeviceVulkan12Features features12;/* to enable: scalarBlockLayout, bufferDeviceAddress (sType set,
+                                                 pNext NULL) */
   VkPhysicalDeviceVulkan13Features features13;/* to enable: dynamicRendering, synchronization2 (likewise) */
   uint32_t device_extension_count;            /* 0 */
   const char* const* device_extensions;
@@ -44,8 +45,8 @@ typedef struct FlkRequirements {
 FLK_API void flkGetRequirements(FlkRequirements* requirements);
 
 /* Optional: device memory from the host. `allocate` gives memory for one resource (bind offset included), `free` takes it
- * back when no frame in flight uses it. Without it Forelock allocates with vkAllocateMemory, one allocation a resource
- * (some dozens for a view). */
+ * back when no frame in flight uses it; its VkDeviceMemory is made with VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT.
+ * Without it Forelock allocates with vkAllocateMemory, one allocation a resource: about six a view and four a hair. */
 typedef struct FlkDeviceAllocation {
   VkDeviceMemory memory;
   VkDeviceSize offset;
@@ -154,8 +155,8 @@ typedef struct FlkViewDesc {
   uint32_t type;    /* FLK_TYPE_VIEW */
   const void* next; /* NULL */
   uint32_t frames_in_flight;   /* frames planned and not yet completed, at most [1, 8]; optional: 0 is 3 */
-  uint64_t pool_budget;        /* bytes the fragment lists of this view may take; optional: 0 is 256 MiB. Also limited by
-                                  the device's maxStorageBufferRange and by 2^26 - 1 nodes */
+  uint64_t pool_budget;        /* bytes the fragment lists of this view may take; at 12 a fragment; optional: 0 is
+                                  256 MiB (22 million). Also limited by 2^26 - 1 fragments */
 } FlkViewDesc;
 
 /* Cost: none to speak of; memory is taken by flkPlanFrame, as far as a frame needs it. */
@@ -200,7 +201,7 @@ typedef struct FlkLight {
   float direction[3];      /* from the scene to the light, world space; normalised here; not zero */
   float radiance[3];       /* irradiance on a surface facing it / pi, host's unit, >= 0 */
   uint32_t casts_shadow;   /* 1: hair attenuates it, through a shadow map of this view */
-  uint32_t shadow_size;    /* texels a side [64, 8192]; optional: 0 is 1024 */
+  uint32_t shadow_size;    /* texels a side, even [64, 8192]; optional: 0 is 1024 */
 } FlkLight;
 
 enum { /* methods: docs/methods.md section 6 */
@@ -234,7 +235,7 @@ typedef struct FlkFrame {
   uint32_t light_count;      /* [0, 1] */
   const FlkLight* lights;
   float ambient[3];          /* radiance from everywhere, >= 0 */
-  float exposure;            /* the host's, for the 8-bit colours of FLK_METHOD_FORWARD; optional: 0 is 1 */
+  float exposure;            /* FLK_METHOD_FORWARD with FLK_PAYLOAD_PAPER cuts colours at 1 / exposure; optional: 0 is 1 */
   uint32_t method;           /* FLK_METHOD_... */
   uint32_t k;                /* fragments shaded fully [1, 32]; optional: 0 is 8 (use FLK_K_NONE for none) */
   uint32_t k_sort;           /* fragments sorted [k, 32]; optional: 0 is max(8, k) */

@@ -51,7 +51,7 @@ const char* lightFault(const FlkLight& light) {
   for (float c : light.radiance)
     if (!within(c, 0, 1e30f)) return "light.radiance must be finite and not negative";
   if (light.casts_shadow > 1) return "light.casts_shadow must be 0 or 1";
-  if (light.shadow_size && (light.shadow_size < 64 || light.shadow_size > 8192)) return "light.shadow_size must lie in [64, 8192]";
+  if (light.shadow_size && (light.shadow_size < 64 || light.shadow_size > 8192 || light.shadow_size % 2)) return "light.shadow_size must be even and lie in [64, 8192]";
   return nullptr;
 }
 
@@ -122,6 +122,7 @@ void flkGetRequirements(FlkRequirements* requirements) {
   requirements->features.fragmentStoresAndAtomics = VK_TRUE;
   requirements->features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
   requirements->features12.scalarBlockLayout = VK_TRUE;
+  requirements->features12.bufferDeviceAddress = VK_TRUE;
   requirements->features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
   requirements->features13.dynamicRendering = VK_TRUE;
   requirements->features13.synchronization2 = VK_TRUE;
@@ -326,6 +327,7 @@ FlkResult flkPlanGetInfo(FlkPlan plan, FlkPlanInfo* info) {
 FlkResult flkPlanGetPass(FlkPlan plan, uint32_t index, FlkPassInfo* info) {
   if (!plan || !info || index >= toFrame(plan)->plan.passes.count) return FLK_ERROR_INVALID_ARGUMENT;
   const forelock::Pass& pass = toFrame(plan)->plan.passes.items[index];
+  static_assert(forelock::kDisplayLayers == FLK_DISPLAY_LAYERS && forelock::kPayloadDefault == FLK_PAYLOAD_DEFAULT);
   static_assert(int(forelock::PassId::clear) == FLK_STAGE_CLEAR && int(forelock::PassId::resolve) == FLK_STAGE_RESOLVE);
   *info = {pass.name, uint32_t(pass.id), {pass.groups[0], pass.groups[1], pass.groups[2]}, pass.indices};
   return FLK_SUCCESS;

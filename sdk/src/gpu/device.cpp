@@ -63,6 +63,7 @@ FlkResult Device::init(const FlkContextDesc& desc, const Messages& context_messa
   const struct { VkBool32 has; const char* name; } needs[] = {
       {features.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics"},
       {features12.scalarBlockLayout, "scalarBlockLayout"},
+      {features12.bufferDeviceAddress, "bufferDeviceAddress"},
       {features13.dynamicRendering, "dynamicRendering"},
       {features13.synchronization2, "synchronization2"},
   };
@@ -101,7 +102,7 @@ FlkResult Device::init(const FlkContextDesc& desc, const Messages& context_messa
 }
 
 FlkResult Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
-                           const char* name, FlkDeviceAllocation& allocation) {
+                           bool address, const char* name, FlkDeviceAllocation& allocation) {
   allocation = {};
   if (host_allocates_) {
     const VkResult result = allocator_.allocate(allocator_.user, &requirements, wanted, name, &allocation);
@@ -114,6 +115,10 @@ FlkResult Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPro
   if (type == UINT32_MAX) type = findMemoryType(memory_, requirements.memoryTypeBits, wanted);
   VkMemoryAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  VkMemoryAllocateFlagsInfo flags{};
+  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+  if (address) info.pNext = &flags;
   info.allocationSize = requirements.size;
   info.memoryTypeIndex = type;
   VkResult result = type == UINT32_MAX ? VK_ERROR_OUT_OF_DEVICE_MEMORY : fn.vkAllocateMemory(device, &info, nullptr, &allocation.memory);
@@ -150,11 +155,18 @@ FlkResult Device::createBuffer(uint64_t size, VkBufferUsageFlags usage, bool hos
   fn.vkGetBufferMemoryRequirements(device, buffer.handle, &requirements);
   constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+  const bool address = usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
   // What the device reads every frame should be near it, also where the host writes it once.
   const bool near = !host_visible || (usage & VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-  FlkResult flk = allocate(requirements, host_visible ? kHost : kLocal, near ? kLocal : VkMemoryPropertyFlags(0), name, buffer.memory);
+  FlkResult flk = allocate(requirements, host_visible ? kHost : kLocal, near ? kLocal : VkMemoryPropertyFlags(0), address, name, buffer.memory);
   if (flk == FLK_SUCCESS) flk = toResult(fn.vkBindBufferMemory(device, buffer.handle, buffer.memory.memory, buffer.memory.offset));
-  if (flk != FLK_SUCCESS) destroy(buffer);
+  if (flk != FLK_SUCCESS) return destroy(buffer), flk;
+  if (address) {
+    VkBufferDeviceAddressInfo where{};
+    where.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+    where.buffer = buffer.handle;
+    buffer.address = fn.vkGetBufferDeviceAddress(device, &where);
+  }
   return flk;
 }
 
@@ -175,7 +187,7 @@ FlkResult Device::createDepthImage(uint32_t size, const char* name, Image& image
   if (result != VK_SUCCESS) return image = {}, toResult(result);
   VkMemoryRequirements requirements{};
   fn.vkGetImageMemoryRequirements(device, image.handle, &requirements);
-  FlkResult flk = allocate(requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, name, image.memory);
+  FlkResult flk = allocate(requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, false, name, image.memory);
   if (flk == FLK_SUCCESS) flk = toResult(fn.vkBindImageMemory(device, image.handle, image.memory.memory, image.memory.offset));
   if (flk == FLK_SUCCESS) {
     VkImageViewCreateInfo view{};

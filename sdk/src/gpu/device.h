@@ -56,7 +56,9 @@ namespace forelock {
   X(vkDestroyPipelineLayout)      \
   X(vkDestroyQueryPool)           \
   X(vkDestroyShaderModule)        \
+  X(vkFreeDescriptorSets)         \
   X(vkFreeMemory)                 \
+  X(vkGetBufferDeviceAddress)     \
   X(vkGetBufferMemoryRequirements)\
   X(vkGetImageMemoryRequirements) \
   X(vkGetQueryPoolResults)        \
@@ -74,6 +76,7 @@ struct Buffer {
   VkBuffer handle = VK_NULL_HANDLE;
   FlkDeviceAllocation memory{};
   uint64_t size = 0;
+  VkDeviceAddress address = 0;  // where its usage asks for one
 };
 
 struct Image {
@@ -109,7 +112,7 @@ public:
 
 private:
   FlkResult allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
-                     const char* name, FlkDeviceAllocation& allocation);
+                     bool address, const char* name, FlkDeviceAllocation& allocation);
   void release(FlkDeviceAllocation& allocation);
 
   VkPhysicalDeviceMemoryProperties memory_{};

@@ -47,6 +47,7 @@ Sphere sphereOfAll(const HairFacts* facts, uint32_t count) {
   return all;
 }
 
+// From the middle of the map.
 Mat4 texelsFromWorld(const Sphere& sphere, const Vec3& to_light, uint32_t size) {
   const Vec3 z = to_light * -1.0;
   int axis = 0;
@@ -58,8 +59,8 @@ Mat4 texelsFromWorld(const Sphere& sphere, const Vec3& to_light, uint32_t size) 
   const double scale = size / (2.0 * sphere.radius);
   Mat4 m = kIdentity;
   for (int i = 0; i < 3; ++i) m[i * 4] = x[i] * scale, m[i * 4 + 1] = y[i] * scale, m[i * 4 + 2] = z[i];
-  m[12] = -dot(x, sphere.center) * scale + size * 0.5;
-  m[13] = -dot(y, sphere.center) * scale + size * 0.5;
+  m[12] = -dot(x, sphere.center) * scale;
+  m[13] = -dot(y, sphere.center) * scale;
   m[14] = -dot(z, sphere.center) + sphere.radius;
   return m;
 }
@@ -80,6 +81,20 @@ gpu::HairConstants hairConstants(const FlkMaterial& material, const HairFacts& f
   return h;
 }
 
+// No fragment is shaded brighter: every lobe and every sine is at most 1.
+float brightestFragment(const Frame& frame, const FlkFrame& asked) {
+  float brightest = 1e-30f;
+  for (uint32_t i = 0; i < asked.hair_count; ++i) {
+    const FlkMaterial& m = frame.hairs[i]->material;
+    for (int channel = 0; channel < 3; ++channel) {
+      const float light = asked.light_count ? asked.lights[0].radiance[channel] : 0;
+      const float diffuse = m.diffuse * m.color[channel];
+      brightest = std::max(brightest, light * (diffuse + m.specular_r + m.specular_trt * m.color[channel]) + asked.ambient[channel] * diffuse);
+    }
+  }
+  return std::min(brightest, 1e30f);
+}
+
 }  // namespace
 
 void fillConstants(Frame& frame, const FlkFrame& asked, const Camera& camera, const HairFacts* facts) {
@@ -94,7 +109,8 @@ void fillConstants(Frame& frame, const FlkFrame& asked, const Camera& camera, co
   c.pixels_per_unit = {float(std::abs(camera.scale[0]) * camera.width / 2), float(std::abs(camera.scale[1]) * camera.height / 2)};
   c.rect = {plan.rect.x, plan.rect.y, plan.rect.width, plan.rect.height};
   c.node_capacity = uint32_t(plan.node_capacity);
-  c.exposure = asked.exposure == 0 ? 1.0f : asked.exposure;
+  c.node_pool = {uint32_t(frame.node_address), uint32_t(frame.node_address >> 32)};
+  c.color_range = 1;
   c.depth_range = {float(std::max(plan.nearest, camera.near_plane)), float(plan.farthest)};
   c.ambient = toVec3(asked.ambient);
   c.light_direction = {0, 0, 1};
@@ -117,6 +133,8 @@ void fillConstants(Frame& frame, const FlkFrame& asked, const Camera& camera, co
       c.texels_from_view = toMat4x3(frame.texels_from_world * inverseRigid(camera.view_from_world));
     }
   }
+  if (plan.method->shaded && plan.method->capture == CaptureKind::color)
+    c.color_range = plan.payload == FLK_PAYLOAD_PAPER ? 1 / (asked.exposure == 0 ? 1.0f : asked.exposure) : brightestFragment(frame, asked);
   for (uint32_t i = 0; i < asked.hair_count; ++i) {
     gpu::HairConstants h = hairConstants(frame.hairs[i]->material, facts[i]);
     h.view_from_hair = toMat4x3(camera.view_from_world * facts[i].world_from_hair);

@@ -103,7 +103,7 @@ VkResult createSetLayout(Device& device, const VkDescriptorType* types, uint32_t
 FlkResult Pipelines::init(Device& device) {
   if (device.planning()) return FLK_SUCCESS;
   constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kImage = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-  const VkDescriptorType view_types[] = {kBuffer, kBuffer, kBuffer, kBuffer, kImage, kImage, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+  const VkDescriptorType view_types[] = {kBuffer, kBuffer, kBuffer, kImage, kImage, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
   const VkDescriptorType hair_types[] = {kBuffer, kBuffer, kBuffer};
   VkResult result = createSetLayout(device, view_types, uint32_t(std::size(view_types)), view_set);
   if (result != VK_SUCCESS) view_set = VK_NULL_HANDLE;

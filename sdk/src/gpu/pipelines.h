@@ -10,7 +10,7 @@
 namespace forelock {
 
 // Set 0: the view's; set 1: a hair's. shaders/passes/bindings.glsl.
-enum Binding : uint32_t { kBindFrame, kBindHeads, kBindNodes, kBindCounters, kBindHostDepth, kBindShadowMap, kBindTarget };
+enum Binding : uint32_t { kBindFrame, kBindHeads, kBindCounters, kBindHostDepth, kBindShadowMap, kBindTarget };
 
 class Pipelines {
 public:

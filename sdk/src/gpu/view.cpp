@@ -32,7 +32,7 @@ void View::destroy() {
 }
 
 uint64_t View::nodeLimit() const {
-  return std::max<uint64_t>(1, std::min({pool_budget_ / kNodeBytes, context_.device.limits.maxStorageBufferRange / kNodeBytes, kMaxNodes}));
+  return std::max<uint64_t>(1, std::min(pool_budget_ / kNodeBytes, kMaxNodes));
 }
 
 // ---- Completed frames ----
@@ -87,7 +87,8 @@ void View::freeRetired(uint64_t completed) {
 FlkResult View::replace(Buffer& buffer, uint64_t bytes, const char* name) {
   retired_.reserve(retired_.size() + 1);  // before there is something to lose
   Buffer fresh;
-  const FlkResult result = context_.device.createBuffer(bytes, kStorage, false, name, fresh);
+  const VkBufferUsageFlags usage = &buffer == &nodes_ ? VkBufferUsageFlags(VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) : kStorage;
+  const FlkResult result = context_.device.createBuffer(bytes, usage, false, name, fresh);
   if (result != FLK_SUCCESS) return result;
   if (buffer.size) retired_.push_back({buffer, {}, last_number_});
   buffer = fresh;
@@ -127,29 +128,16 @@ FlkResult View::ensureRing(bool timestamps) {
   }
   if (device.planning()) return FLK_SUCCESS;
   if (!set_pool_) {
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * count}, {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 * count},
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3 * count}, {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 * count},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, count}};
     VkDescriptorPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    info.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
     info.maxSets = count;
     info.poolSizeCount = uint32_t(std::size(sizes));
     info.pPoolSizes = sizes;
-    VkResult result = device.fn.vkCreateDescriptorPool(device.device, &info, nullptr, &set_pool_);
+    const VkResult result = device.fn.vkCreateDescriptorPool(device.device, &info, nullptr, &set_pool_);
     if (result != VK_SUCCESS) return set_pool_ = VK_NULL_HANDLE, toResult(result);
-    VkDescriptorSetLayout layouts[kMaxFramesInFlight];
-    VkDescriptorSet sets[kMaxFramesInFlight];
-    std::fill_n(layouts, count, context_.pipelines.view_set);
-    VkDescriptorSetAllocateInfo allocate{};
-    allocate.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    allocate.descriptorPool = set_pool_;
-    allocate.descriptorSetCount = count;
-    allocate.pSetLayouts = layouts;
-    result = device.fn.vkAllocateDescriptorSets(device.device, &allocate, sets);
-    if (result != VK_SUCCESS) {
-      device.fn.vkDestroyDescriptorPool(device.device, set_pool_, nullptr);
-      return set_pool_ = VK_NULL_HANDLE, toResult(result);
-    }
-    for (uint32_t i = 0; i < count; ++i) frames_[i].set = sets[i];
   }
   if (timestamps && !queries_) {
     VkQueryPoolCreateInfo info{};
@@ -162,15 +150,35 @@ FlkResult View::ensureRing(bool timestamps) {
   return FLK_SUCCESS;
 }
 
-void View::writeSet(const Frame& frame) {
-  VkDescriptorBufferInfo buffers[4];
-  const VkBuffer handles[] = {frame.constants, frame.heads, frame.nodes, frame.counters};
+// A set that still names an image which this frame does without is exchanged for a fresh one: the image may be gone, and
+// lavapipe (Mesa 22.3.6) reads every descriptor of a bound set, also those that no shader uses.
+FlkResult View::ensureSet(Frame& frame, const FramePlan& plan) {
+  Device& device = context_.device;
+  if (device.planning()) return FLK_SUCCESS;
+  const bool stale = (frame.set_has_depth && !plan.has_depth) || (frame.set_has_shadow && !plan.shadow_size);
+  if (frame.set && !stale) return FLK_SUCCESS;
+  if (frame.set) device.fn.vkFreeDescriptorSets(device.device, set_pool_, 1, &frame.set);
+  frame.set = VK_NULL_HANDLE;
+  frame.set_has_depth = frame.set_has_shadow = false;
+  VkDescriptorSetAllocateInfo allocate{};
+  allocate.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  allocate.descriptorPool = set_pool_;
+  allocate.descriptorSetCount = 1;
+  allocate.pSetLayouts = &context_.pipelines.view_set;
+  const VkResult result = device.fn.vkAllocateDescriptorSets(device.device, &allocate, &frame.set);
+  if (result != VK_SUCCESS) frame.set = VK_NULL_HANDLE;
+  return toResult(result);
+}
+
+void View::writeSet(Frame& frame) {
+  VkDescriptorBufferInfo buffers[3];
+  const VkBuffer handles[] = {frame.constants, frame.heads, frame.counters};
   VkDescriptorImageInfo images[3] = {
       {VK_NULL_HANDLE, frame.depth.view, frame.depth.layout},
       {VK_NULL_HANDLE, frame.shadow_map.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {VK_NULL_HANDLE, frame.target.view, VK_IMAGE_LAYOUT_GENERAL},
   };
-  VkWriteDescriptorSet writes[7]{};
+  VkWriteDescriptorSet writes[6]{};
   uint32_t count = 0;
   auto write = [&](uint32_t binding, VkDescriptorType type) -> VkWriteDescriptorSet& {
     VkWriteDescriptorSet& w = writes[count++];
@@ -181,7 +189,7 @@ void View::writeSet(const Frame& frame) {
     w.descriptorType = type;
     return w;
   };
-  for (uint32_t i = 0; i < 4; ++i) {
+  for (uint32_t i = 0; i < 3; ++i) {
     buffers[i] = {handles[i], 0, VK_WHOLE_SIZE};
     write(kBindFrame + i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER).pBufferInfo = &buffers[i];
   }
@@ -189,6 +197,8 @@ void View::writeSet(const Frame& frame) {
   if (frame.plan.shadow_size) write(kBindShadowMap, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE).pImageInfo = &images[1];
   write(kBindTarget, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE).pImageInfo = &images[2];
   context_.device.fn.vkUpdateDescriptorSets(context_.device.device, count, writes, 0, nullptr);
+  frame.set_has_depth = frame.plan.has_depth;
+  frame.set_has_shadow = frame.plan.shadow_size != 0;
 }
 
 // ---- Plan ----
@@ -246,6 +256,7 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   if (plan.passes.count) {
     FlkResult result = ensureRing(plan.timestamps);
     if (result == FLK_SUCCESS) result = ensureMemory(plan);
+    if (result == FLK_SUCCESS) result = ensureSet(*frame, plan);
     if (result == FLK_SUCCESS && plan.shadow_size) result = context_.pipelines.get(context_.device, shadowRecipe(plan), shadow);
     if (result == FLK_SUCCESS) result = context_.pipelines.get(context_.device, captureRecipe(plan), capture);
     if (result == FLK_SUCCESS) result = context_.pipelines.get(context_.device, resolveRecipe(plan), resolve);
@@ -264,7 +275,8 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   frame->target = asked.target, frame->depth = asked.depth;
   frame->texels_from_world = kIdentity;
   if (plan.passes.count) {
-    frame->constants = constants_.handle, frame->heads = heads_.handle, frame->nodes = nodes_.handle, frame->counters = counters_.handle;
+    frame->constants = constants_.handle, frame->heads = heads_.handle, frame->counters = counters_.handle;
+    frame->node_address = nodes_.address;
     frame->shadow_map = shadow_map_;
     fillConstants(*frame, asked, camera, hair_facts);
     if (!context_.device.planning()) writeSet(*frame);
@@ -282,6 +294,7 @@ FlkResult View::shadowMap(FlkShadowMap& map) const {
   map.view = latest->shadow_map.view;
   map.size = latest->plan.shadow_size;
   std::copy(latest->texels_from_world.begin(), latest->texels_from_world.end(), map.texels_from_world);
+  map.texels_from_world[12] += map.size * 0.5, map.texels_from_world[13] += map.size * 0.5;  // from the corner, as images are read
   map.depth_range = latest->shadow_range;
   map.texel = latest->shadow_texel;
   return FLK_SUCCESS;

@@ -29,10 +29,12 @@ struct Frame {
   uint32_t hair_count = 0;
   VkPipeline shadow = VK_NULL_HANDLE, capture = VK_NULL_HANDLE, resolve = VK_NULL_HANDLE;
   VkDescriptorSet set = VK_NULL_HANDLE;
+  bool set_has_depth = false, set_has_shadow = false;  // what has been written to it
   FlkColorTarget target{};
   FlkDepthSource depth{};
   // The view's memory as of this plan; a later plan may have replaced it.
-  VkBuffer constants = VK_NULL_HANDLE, heads = VK_NULL_HANDLE, nodes = VK_NULL_HANDLE, counters = VK_NULL_HANDLE;
+  VkBuffer constants = VK_NULL_HANDLE, heads = VK_NULL_HANDLE, counters = VK_NULL_HANDLE;
+  VkDeviceAddress node_address = 0;
   Image shadow_map;
   Mat4 texels_from_world = kIdentity;
   float shadow_range = 0, shadow_texel = 0;
@@ -68,7 +70,8 @@ private:
   FlkResult replace(Buffer& buffer, uint64_t bytes, const char* name);
   FlkResult ensureMemory(const FramePlan& plan);
   FlkResult ensureRing(bool timestamps);
-  void writeSet(const Frame& frame);
+  FlkResult ensureSet(Frame& frame, const FramePlan& plan);
+  void writeSet(Frame& frame);
   void recordShadow(VkCommandBuffer cmd, const Frame& frame);
   void recordCapture(VkCommandBuffer cmd, const Frame& frame);
   void drawHair(VkCommandBuffer cmd, const Frame& frame, uint32_t index);

@@ -1,8 +1,6 @@
 // The methods: a line each. Adding one means a line here, its pass file and its shaders.
 #pragma once
 
-#include "forelock/forelock.h"
-
 #include <cstdint>
 
 namespace forelock {
@@ -30,6 +28,10 @@ inline constexpr Method kMethods[] = {
 };
 inline constexpr Method kDisplayMethod = {"display", CaptureKind::display, ResolveKind::colors, false, false, true, false, 0};
 inline constexpr Method kLayersMethod = {"layers", CaptureKind::tangent, ResolveKind::layers, false, false, false, false, 0};
+
+// Values of render.h, which this room does not see because it names Vulkan; api/render_api.cpp holds them equal.
+inline constexpr uint32_t kDisplayLayers = 5;
+inline constexpr uint32_t kPayloadDefault = 0;
 
 inline constexpr uint32_t kFullTaps = 25;
 inline constexpr uint32_t kMaxSort = 32;

@@ -1,6 +1,5 @@
 #include "plan/plan.h"
 
-#include "forelock/render.h"
 #include "shared/frame.h"
 
 #include <algorithm>
@@ -12,7 +11,7 @@ namespace {
 constexpr double kMeanPixelExtent = 1.2732395447351628;
 
 const Method& methodOf(const FrameFacts& facts) {
-  if (facts.display == FLK_DISPLAY_LAYERS) return kLayersMethod;
+  if (facts.display == kDisplayLayers) return kLayersMethod;
   return facts.display ? kDisplayMethod : kMethods[facts.method];
 }
 
@@ -54,7 +53,7 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity) {
   FramePlan plan;
   plan.method = &methodOf(facts);
   plan.display = facts.display;
-  plan.payload = facts.display ? uint32_t(FLK_PAYLOAD_DEFAULT) : facts.payload;
+  plan.payload = facts.display ? kPayloadDefault : facts.payload;
   plan.k = facts.k, plan.k_sort = facts.k_sort;
 
   bool first = true;

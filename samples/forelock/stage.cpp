@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include "stage.h"
+
+#include "bust.h"
+#include "commands.h"
+#include "progress.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace forelock::samples {
+
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr size_t kMostSeen = 1u << 20;  // points for framing: one in so many is left out beyond
+
+void placeAsset(const SceneAsset& asset, UpAxis up, double matrix[16]) {
+  const double c = std::cos(asset.turn_deg * kDegree) * asset.scale;
+  const double s = std::sin(asset.turn_deg * kDegree) * asset.scale;
+  std::fill(matrix, matrix + 16, 0.0);
+  matrix[0] = matrix[5] = matrix[10] = asset.scale;
+  matrix[15] = 1.0;
+  if (up == UpAxis::Z) {
+    matrix[0] = matrix[5] = c, matrix[1] = s, matrix[4] = -s;
+  } else {
+    matrix[0] = matrix[10] = c, matrix[2] = -s, matrix[8] = s;
+  }
+  for (int i = 0; i < 3; ++i) {
+    matrix[12 + i] = asset.position[i];
+  }
+}
+
+void collectSeen(Stage& stage) {
+  size_t vertices = 0;
+  for (const StagedAsset& asset : stage.assets) {
+    vertices += asset.info.vertex_count;
+  }
+  const size_t step = vertices / kMostSeen + 1;
+  for (const StagedAsset& asset : stage.assets) {
+    FlkStrands strands = {};
+    flkAssetGetStrands(asset.opened.asset.get(), &strands);
+    const double* m = asset.world_from_hair;
+    for (size_t v = 0; v < strands.vertex_count; v += step) {
+      const float* p = strands.positions + 3 * v;
+      glm::dvec3 world(m[12], m[13], m[14]);
+      for (int column = 0; column < 3; ++column) {
+        world += glm::dvec3(m[4 * column], m[4 * column + 1], m[4 * column + 2]) * static_cast<double>(p[column]);
+      }
+      stage.seen.emplace_back(world);
+    }
+    const double widest = static_cast<double>(asset.info.max_radius * asset.material.width_scale);
+    stage.radius = std::max(stage.radius, widest * std::cbrt(std::fabs(m[0] * (m[5] * m[10] - m[6] * m[9]) -
+                                                                       m[1] * (m[4] * m[10] - m[6] * m[8]))));
+  }
+  if (*stage.scene.head) {
+    float low[3], high[3];
+    headBounds(low, high);
+    for (int corner = 0; corner < 8; ++corner) {
+      stage.seen.emplace_back((corner & 1) ? high[0] : low[0], (corner & 2) ? high[1] : low[1],
+                              (corner & 4) ? high[2] : low[2]);
+    }
+  }
+}
+
+}  // namespace
+
+Stage openStage(const Scene& scene) {
+  Stage stage;
+  stage.scene = scene;
+  bool on_bust = false;
+  const RecipeCamera* stored = nullptr;
+  std::string known;
+  for (const SceneAsset& wanted : scene.assets) {
+    StagedAsset& asset = stage.assets.emplace_back();
+    {
+      Progress progress("opening " + wanted.source);
+      asset.opened = openAsset(wanted.source, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+    }
+    printMessages(*asset.opened.messages, false);
+    flkAssetGetInfo(asset.opened.asset.get(), &asset.info);
+    asset.material = wanted.material;
+    if (wanted.width_mm > 0.0) {
+      asset.material.width_scale =
+          static_cast<float>(std::min(wanted.width_mm * 0.5e-3 / static_cast<double>(asset.info.max_radius), 1e6));
+    }
+    placeAsset(wanted, scene.camera.up, asset.world_from_hair);
+    on_bust = on_bust || (asset.opened.recipe && asset.opened.recipe->drape_on_bust);
+  }
+  for (const StagedAsset& asset : stage.assets) {  // only now, because the list no longer moves
+    for (const RecipeCamera& camera : asset.opened.recipe ? asset.opened.recipe->cameras : std::vector<RecipeCamera>{}) {
+      known += " " + camera.name;
+    }
+    if (asset.opened.recipe) {
+      for (const RecipeCamera& camera : asset.opened.recipe->cameras) {
+        stored = !stored && camera.name == scene.camera.name ? &camera : stored;
+      }
+    }
+  }
+  if (!scene.camera.name.empty() && !stored) {
+    throw UsageError("no camera named " + scene.camera.name + "; " +
+                     (known.empty() ? "this asset stores none" : "stored are:" + known));
+  }
+  if (stored) {
+    stage.scene.camera.placed = fromRecipeCamera(*stored);
+  }
+  if (scene.width == 0) {
+    stage.scene.width = stored ? stored->width : 1024;
+    stage.scene.height = stored ? stored->height : 1024;
+  }
+  if (!scene.head) {
+    stage.scene.head = on_bust;
+  }
+  collectSeen(stage);
+  return stage;
+}
+
+Camera stageCamera(const Stage& stage, uint32_t turn, uint32_t turns) {
+  const SceneCamera& wanted = stage.scene.camera;
+  Camera camera = wanted.placed ? *wanted.placed
+                                : framePoints({stage.seen, stage.radius}, wanted.azimuth_deg * kDegree,
+                                              wanted.elevation_deg * kDegree, wanted.up,
+                                              wanted.vertical_fov_deg * kDegree, stage.aspect(), wanted.margin, turns);
+  if (turn > 0) {
+    const double angle = 360.0 * kDegree * turn / turns;
+    glm::dvec3 axis(0.0);
+    if (!wanted.placed) {  // the middle of what is framed, as in framePoints
+      glm::vec3 low = stage.seen[0], high = stage.seen[0];
+      for (const glm::vec3& p : stage.seen) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+      }
+      axis = glm::dvec3(low + high) * 0.5;
+    } else {
+      axis = wanted.placed->target;
+    }
+    const int a = wanted.up == UpAxis::Z ? 0 : 2, b = wanted.up == UpAxis::Z ? 1 : 0;
+    for (glm::dvec3* point : {&camera.eye, &camera.target}) {
+      const glm::dvec3 d = *point - axis;
+      (*point)[a] = axis[a] + d[a] * std::cos(angle) - d[b] * std::sin(angle);
+      (*point)[b] = axis[b] + d[a] * std::sin(angle) + d[b] * std::cos(angle);
+    }
+  }
+  if (*stage.scene.head && !wanted.placed) {  // no part of the bust is cut off by the planes
+    float low[3], high[3];
+    bustBounds(low, high);
+    const glm::dvec3 middle(0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2]));
+    const double reach = 0.5 * std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    const double depth = glm::dot(camera.eye - middle, cameraBasis(camera).back);
+    camera.near_m = std::max(std::min(camera.near_m, depth - reach), 0.01 * camera.near_m);
+    camera.far_m = std::max(camera.far_m, depth + reach);
+  }
+  return camera;
+}
+
+glm::dvec3 stageLight(const Stage& stage, const Camera& camera) {
+  const double azimuth = stage.scene.light.azimuth_deg * kDegree, elevation = stage.scene.light.elevation_deg * kDegree;
+  const CameraBasis basis = cameraBasis(camera);
+  return basis.right * (std::sin(azimuth) * std::cos(elevation)) + basis.up * std::sin(elevation) +
+         basis.back * (std::cos(azimuth) * std::cos(elevation));
+}
+
+FlkHairDesc stagedHairDesc(const StagedAsset& asset) {
+  FlkHairDesc desc = hairDesc();
+  desc.asset = asset.opened.asset.get();
+  desc.material = &asset.material;
+  return desc;
+}
+
+std::vector<Hair> planHairs(FlkContext context, const Stage& stage) {
+  std::vector<Hair> hairs;
+  for (const StagedAsset& asset : stage.assets) {
+    Hair hair;
+    const FlkResult result = create(context, stagedHairDesc(asset), hair);
+    if (result != FLK_SUCCESS || flkHairSetTransform(hair, asset.world_from_hair) != FLK_SUCCESS) {
+      throw AssetError(result, asset.opened.label + ": no hair can be made of it, " + flkResultName(result));
+    }
+    hairs.push_back(std::move(hair));
+  }
+  return hairs;
+}
+
+StagedFrame::StagedFrame(const Stage& stage, const Camera& camera, const std::vector<Hair>& hairs, double exposure,
+                         double aspect)
+    : frame(frameDesc()), light{} {
+  const Scene& scene = stage.scene;
+  const glm::dvec3 to_light = stageLight(stage, camera);
+  for (int i = 0; i < 3; ++i) {
+    light.direction[i] = static_cast<float>(to_light[i]);
+    light.radiance[i] = static_cast<float>(scene.light.color[i] * exposure);
+    frame.ambient[i] = static_cast<float>(scene.ambient[i] * exposure);
+  }
+  light.casts_shadow = scene.light.shadow ? 1 : 0;
+  light.shadow_size = scene.light.shadow_size;
+  for (const Hair& hair : hairs) {
+    handles.push_back(hair);
+  }
+  viewMatrix(camera, frame.view_from_world);
+  projectionMatrix(camera, aspect, frame.clip_from_view);
+  frame.reversed_depth = camera.reversed_depth ? 1 : 0;
+  frame.hairs = handles.data();
+  frame.hair_count = static_cast<uint32_t>(handles.size());
+  frame.lights = &light;
+  frame.light_count = 1;
+  frame.method = scene.method;
+  frame.k = scene.k;
+  frame.k_sort = scene.k_sort;
+  frame.payload = scene.payload;
+  frame.display = scene.display;
+  frame.timestamps = 1;
+}
+
+std::string methodText(const Scene& scene) {
+  const std::string payload = scene.payload == FLK_PAYLOAD_PAPER ? ", payload of the paper" : "";
+  if (scene.display != FLK_DISPLAY_SHADED) {
+    return "colours show " + displayNames()[scene.display];
+  }
+  if (scene.method == FLK_METHOD_EXACT) {
+    return "exact" + payload;
+  }
+  const uint32_t k = scene.k == FLK_K_NONE ? 0 : scene.k == 0 ? 8 : scene.k;
+  const uint32_t k_sort = scene.k_sort == 0 ? std::max(8u, k) : scene.k_sort;
+  return methodNames()[scene.method] + ", " + (scene.method == FLK_METHOD_CORE_TAIL ? "k " + std::to_string(k) + ", " : "") +
+         "k_sort " + std::to_string(k_sort) + payload;
+}
+
+}  // namespace forelock::samples

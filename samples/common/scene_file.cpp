@@ -225,6 +225,14 @@ double shortest(float value) {
 FlkMaterial pictureMaterial() {
   FlkMaterial material;
   flkMaterialDefault(&material);
+  const float brown[3] = {0.105f, 0.056f, 0.030f};
+  std::copy(brown, brown + 3, material.color);
+  material.specular_r = 0.022f;
+  material.exponent_r = 60.0f;
+  material.specular_trt = 0.22f;
+  material.exponent_trt = 20.0f;
+  material.cuticle_tilt = 0.07f;
+  material.fibre_spacing = 4e-3f;  // light fades over locks, not over single strands
   return material;
 }
 

@@ -20,7 +20,8 @@ struct SceneError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Brown hair with tighter highlights than flkMaterialDefault, whose weights are those of a real-time sample.
+// Brown hair with narrower highlights and softer shadows than flkMaterialDefault, whose weights are those of a
+// real-time sample of 2018.
 FlkMaterial pictureMaterial();
 
 struct SceneAsset {
@@ -54,7 +55,7 @@ struct SceneCamera {
 struct Scene {
   std::vector<SceneAsset> assets;
   SceneLight light;
-  glm::dvec3 ambient{0.20, 0.22, 0.25};  // share of the light's radiance
+  glm::dvec3 ambient{0.06, 0.065, 0.075};  // share of the light's radiance
   double exposure = 0.0;                 // radiance of the light; 0: chosen from a small first picture
   SceneCamera camera;
   uint32_t width = 0, height = 0;        // 0: the stored camera's, else 1024 x 1024

@@ -21,7 +21,7 @@ double luminance(const float* rgb) {
          0.0722 * static_cast<double>(rgb[2]);
 }
 
-// Brown hair is to come out at a mean of 0.1; lighter and darker hair keeps half (on a log scale) of its difference to
+// Hair of the brown of pictureMaterial is to come out at a mean of 0.055; lighter and darker hair keeps half (on a log scale) of its difference to
 // brown, so that black stays black and blond is not white. Highlights may not burn out over more than one pixel in 200.
 double chooseExposure(const std::vector<float>& rgba, double radiance, const Stage& stage) {
   std::vector<double> values;
@@ -39,10 +39,9 @@ double chooseExposure(const std::vector<float>& rgba, double radiance, const Sta
   }
   const auto high = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 199 / 200);
   std::nth_element(values.begin(), high, values.end());
-  FlkMaterial brown;
-  flkMaterialDefault(&brown);
+  const FlkMaterial brown = pictureMaterial();
   const double lightness = std::max(luminance(stage.assets[0].material.color), 0.004) / luminance(brown.color);
-  const double wanted = 0.10 * std::sqrt(lightness);
+  const double wanted = 0.055 * std::sqrt(lightness);
   const double scale = std::min(wanted / std::max(mean, 1e-9), 0.95 / std::max(*high, 1e-9));
   return radiance * std::clamp(scale, 1e-6, 1e6);
 }
@@ -67,22 +66,22 @@ struct HairShadow {
       at[row] = m[row] * static_cast<double>(p.x) + m[4 + row] * static_cast<double>(p.y) +
                 m[8 + row] * static_cast<double>(p.z) + m[12 + row];
     }
-    const int size = static_cast<int>(map.size);
-    const int step = std::max(1, static_cast<int>(std::lround(0.0012 / static_cast<double>(map.texel))));
     float light = 0.0f, sum = 0.0f;
-    for (int j = -3; j <= 3; ++j) {
-      for (int i = -3; i <= 3; ++i) {
-        const float weight = std::exp(-0.25f * static_cast<float>(i * i + j * j));
-        const int x = static_cast<int>(std::clamp(at[0], -1e6, 1e6)) + i * step;
-        const int y = static_cast<int>(std::clamp(at[1], -1e6, 1e6)) + j * step;
-        sum += weight;
-        if (x < 0 || y < 0 || x >= size || y >= size) {
-          light += weight;
+    const int size = static_cast<int>(map.size);
+    const int reach = std::clamp(static_cast<int>(0.004 / static_cast<double>(map.texel)), 2, 16);  // 4 mm
+    const int middle_x = static_cast<int>(std::clamp(at[0], -1e6, 1e6));
+    const int middle_y = static_cast<int>(std::clamp(at[1], -1e6, 1e6));
+    for (int j = -reach; j <= reach; ++j) {
+      for (int i = -reach; i <= reach; ++i) {
+        if (i * i + j * j > reach * reach) {
           continue;
         }
-        const float front = depth[static_cast<size_t>(y) * map.size + static_cast<size_t>(x)];
+        const int x = middle_x + i, y = middle_y + j;
+        sum += 1.0f;
+        const bool outside = x < 0 || y < 0 || x >= size || y >= size;
+        const float front = outside ? 1.0f : depth[static_cast<size_t>(y) * map.size + static_cast<size_t>(x)];
         const float behind = front >= 1.0f ? 0.0f : static_cast<float>(at[2]) - front * map.depth_range;
-        light += weight * std::exp2(std::max(behind, 0.0f) * fibres_per_metre * log2_transmittance);
+        light += std::exp2(std::max(behind, 0.0f) * fibres_per_metre * log2_transmittance);
       }
     }
     return light / sum;
@@ -180,8 +179,8 @@ Picture Painter::draw(const Camera& camera, double exposure) {
     const glm::dvec3 to_light = stageLight(stage_, camera);
     look.to_light = glm::vec3(to_light);
     // Skin is lit for its own picture: beside fibres, which reflect little of their light, it would burn out.
-    look.light = glm::vec3(scene.light.color) * 3.0f;
-    look.ambient = glm::vec3(0.16f, 0.17f, 0.19f);
+    look.light = glm::vec3(scene.light.color) * 2.2f;
+    look.ambient = glm::vec3(0.10f, 0.11f, 0.125f);
     if (!shaded) {
       look.albedo = glm::vec3(0.10f);
     }

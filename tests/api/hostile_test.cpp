@@ -120,6 +120,7 @@ TEST_F(Hostile, lights) {
       {"radiance below 0", kInvalid, [this](FlkFrame&) { scene.light.radiance[0] = -1.0f; }},
       {"NaN radiance", kInvalid, [this](FlkFrame&) { scene.light.radiance[2] = kNan; }},
       {"map of 63", kInvalid, [this](FlkFrame&) { scene.light.shadow_size = 63; }},
+      {"map of 129", kInvalid, [this](FlkFrame&) { scene.light.shadow_size = 129; }},
       {"map of 8193", kInvalid, [this](FlkFrame&) { scene.light.shadow_size = 8193; }},
   });
 }

@@ -229,6 +229,7 @@ TEST(Life, refusesADeviceThatLacksSomething) {
       {"version", [](mock::Claims& claims) { claims.properties.apiVersion = VK_API_VERSION_1_2; }},
       {"fragmentStoresAndAtomics", [](mock::Claims& claims) { claims.features.fragmentStoresAndAtomics = VK_FALSE; }},
       {"scalarBlockLayout", [](mock::Claims& claims) { claims.features12.scalarBlockLayout = VK_FALSE; }},
+      {"bufferDeviceAddress", [](mock::Claims& claims) { claims.features12.bufferDeviceAddress = VK_FALSE; }},
       {"dynamicRendering", [](mock::Claims& claims) { claims.features13.dynamicRendering = VK_FALSE; }},
       {"synchronization2", [](mock::Claims& claims) { claims.features13.synchronization2 = VK_FALSE; }},
       {"queue", [](mock::Claims& claims) { claims.queue_families[0].queueFlags = VK_QUEUE_COMPUTE_BIT; }},
@@ -261,6 +262,7 @@ TEST(Life, requirementsMatchWhatIsChecked) {
   EXPECT_EQ(needs.features12.pNext, nullptr);
   EXPECT_EQ(needs.features13.pNext, nullptr);
   EXPECT_TRUE(needs.features.fragmentStoresAndAtomics && needs.features12.scalarBlockLayout &&
+              needs.features12.bufferDeviceAddress &&
               needs.features13.dynamicRendering && needs.features13.synchronization2);
   EXPECT_EQ(needs.device_extension_count, 0u);
 }

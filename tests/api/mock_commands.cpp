@@ -56,8 +56,9 @@ VKAPI_ATTR void VKAPI_CALL CmdBindDescriptorSets(VkCommandBuffer cmd, VkPipeline
 }
 
 VKAPI_ATTR void VKAPI_CALL CmdPushConstants(VkCommandBuffer cmd, VkPipelineLayout layout, VkShaderStageFlags,
-                                            uint32_t offset, uint32_t size, const void*) {
+                                            uint32_t offset, uint32_t size, const void* data) {
   recordWith(cmd, "vkCmdPushConstants", layout, Kind::PipelineLayout, false, true).numbers = {offset, size};
+  Driver::current().useAddresses(data, size);
 }
 
 // A draw or dispatch uses what its pipeline declares of the sets that are bound; other bindings may be stale.
@@ -188,6 +189,7 @@ VKAPI_ATTR void VKAPI_CALL CmdUpdateBuffer(VkCommandBuffer cmd, VkBuffer buffer,
     return;
   }
   if (std::byte* write = bytesOf(command.objects[0], offset)) std::memcpy(write, data, size);
+  driver.useAddresses(data, size);
 }
 
 VKAPI_ATTR void VKAPI_CALL CmdResetQueryPool(VkCommandBuffer cmd, VkQueryPool pool, uint32_t first, uint32_t count) {

@@ -117,6 +117,10 @@ VKAPI_ATTR VkResult VKAPI_CALL AllocateMemory(VkDevice device, const VkMemoryAll
   Object* object = driver.make(Kind::Memory);
   object->size = info->allocationSize;
   object->memory_type = info->memoryTypeIndex;
+  for (auto* more = static_cast<const VkBaseInStructure*>(info->pNext); more; more = more->pNext)
+    if (more->sType == VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO)
+      object->addressable = reinterpret_cast<const VkMemoryAllocateFlagsInfo*>(more)->flags &
+                            VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
   // Zeroed on first touch, so that a large pool costs nothing here.
   object->bytes = std::calloc(1, info->allocationSize);
   *memory = handleOf<VkDeviceMemory>(object);
@@ -246,6 +250,18 @@ VKAPI_ATTR VkResult VKAPI_CALL BindBufferMemory(VkDevice, VkBuffer buffer, VkDev
 
 VKAPI_ATTR VkResult VKAPI_CALL BindImageMemory(VkDevice, VkImage image, VkDeviceMemory memory, VkDeviceSize offset) {
   return bind(image, Kind::Image, memory, offset, "vkBindImageMemory");
+}
+
+// The host's address of the object does as the device's: unique, and told apart from other words.
+VKAPI_ATTR VkDeviceAddress VKAPI_CALL GetBufferDeviceAddress(VkDevice device, const VkBufferDeviceAddressInfo* info) {
+  Driver& driver = Driver::current();
+  driver.checkDevice(device, "vkGetBufferDeviceAddress");
+  Object* buffer = driver.known(info->buffer, Kind::Buffer, "vkGetBufferDeviceAddress");
+  if (!buffer) return 0;
+  if (!(buffer->usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) || !buffer->memory ||
+      !(buffer->memory->addressable || buffer->memory->of_host))
+    driver.breach("vkGetBufferDeviceAddress: the buffer or its memory was not made for that");
+  return reinterpret_cast<VkDeviceAddress>(buffer);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL CreateImageView(VkDevice device, const VkImageViewCreateInfo* info,
@@ -585,7 +601,7 @@ const FunctionTable& deviceFunctions() {
       MOCK(UnmapMemory), MOCK(FlushMappedMemoryRanges), MOCK(InvalidateMappedMemoryRanges), MOCK(CreateBuffer),
       MOCK(DestroyBuffer), MOCK(CreateImage), MOCK(DestroyImage), MOCK(GetBufferMemoryRequirements),
       MOCK(GetImageMemoryRequirements), MOCK(GetBufferMemoryRequirements2), MOCK(GetImageMemoryRequirements2),
-      MOCK(BindBufferMemory), MOCK(BindImageMemory), MOCK(CreateImageView), MOCK(DestroyImageView),
+      MOCK(GetBufferDeviceAddress), MOCK(BindBufferMemory), MOCK(BindImageMemory), MOCK(CreateImageView), MOCK(DestroyImageView),
       MOCK(CreateSampler), MOCK(DestroySampler), MOCK(CreateShaderModule), MOCK(DestroyShaderModule),
       MOCK(CreatePipelineCache), MOCK(DestroyPipelineCache), MOCK(CreateDescriptorSetLayout),
       MOCK(DestroyDescriptorSetLayout), MOCK(CreatePipelineLayout), MOCK(DestroyPipelineLayout),

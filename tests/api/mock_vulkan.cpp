@@ -84,6 +84,7 @@ Claims::Claims() {
   limits.maxViewportDimensions[0] = limits.maxViewportDimensions[1] = 16384;
   features.fragmentStoresAndAtomics = VK_TRUE;
   features12.scalarBlockLayout = VK_TRUE;
+  features12.bufferDeviceAddress = VK_TRUE;
   features13.dynamicRendering = VK_TRUE;
   features13.synchronization2 = VK_TRUE;
   queue_families = {{VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT, 1, 64, {1, 1, 1}},
@@ -233,6 +234,15 @@ void Driver::use(Object* object) {
   object->last_frame = std::max(object->last_frame, frame);
   if (object->memory) use(object->memory);
   for (Object* part : object->uses) use(part);
+}
+
+void Driver::useAddresses(const void* data, size_t size) {
+  for (size_t at = 0; at + sizeof(VkDeviceAddress) <= size; at += sizeof(uint32_t)) {
+    VkDeviceAddress word;
+    std::memcpy(&word, static_cast<const std::byte*>(data) + at, sizeof word);
+    auto* object = reinterpret_cast<Object*>(word);
+    if (word && addresses_.count(object) && object->kind == Kind::Buffer) use(object);
+  }
 }
 
 void Driver::beginCommandBuffer() {

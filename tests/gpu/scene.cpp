@@ -116,6 +116,7 @@ Scene::Scene(const StrandArrays& strands, const FlkMaterial& look, const ViewSpe
   EXPECT_EQ(host().createHair(desc, &hair), FLK_SUCCESS);
   FlkViewDesc view_desc{};
   view_desc.type = FLK_TYPE_VIEW;
+  view_desc.pool_budget = uint64_t(1) << 30;
   EXPECT_EQ(flkViewCreate(host().context(), &view_desc, &view), FLK_SUCCESS);
 
   camera = reference::makeCamera(spec.eye, spec.target, spec.up, spec.projection, spec.width, spec.height);

@@ -253,7 +253,8 @@ typedef struct FlkFrame {
  * planned, or the view's end.
  * Memory that a smaller or larger one replaces is freed when `completed_frame` allows it.
  * FLK_ERROR_UNSUPPORTED_IMAGE: target or depth (the message says which field); FLK_ERROR_TOO_MANY_FRAMES:
- * frames_in_flight plans of this view have not completed; FLK_ERROR_OUT_OF_DEVICE_MEMORY. */
+ * frames_in_flight plans of this view have not completed; FLK_ERROR_LIMIT: the hair covers more pixels than list heads of
+ * 4 bytes can be bound for (maxStorageBufferRange; 33 million at 128 MiB); FLK_ERROR_OUT_OF_DEVICE_MEMORY. */
 FLK_API FlkResult flkPlanFrame(FlkView view, const FlkFrame* frame, FlkPlan* plan);
 
 /* Records the plan: no allocation, no compilation, no file. Once a plan. Outside rendering, on a queue with graphics and

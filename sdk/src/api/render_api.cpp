@@ -60,7 +60,8 @@ const char* targetFault(const FlkColorTarget& target, bool planning) {
   if (target.format != VK_FORMAT_R16G16B16A16_SFLOAT) return "target.format must be VK_FORMAT_R16G16B16A16_SFLOAT";
   if (target.samples != VK_SAMPLE_COUNT_1_BIT) return "target.samples must be VK_SAMPLE_COUNT_1_BIT: resolve it before hair is drawn";
   if (!planning && (!target.image || !target.view)) return "target.image and target.view must be set";
-  if (!planning && target.exit.layout == VK_IMAGE_LAYOUT_UNDEFINED) return "target.exit.layout must not be VK_IMAGE_LAYOUT_UNDEFINED";
+  if (!planning && (target.exit.layout == VK_IMAGE_LAYOUT_UNDEFINED || target.exit.layout == VK_IMAGE_LAYOUT_PREINITIALIZED))
+    return "target.exit.layout must be one that an image can be brought into";
   return nullptr;
 }
 
@@ -315,7 +316,7 @@ FlkResult flkPlanGetInfo(FlkPlan plan, FlkPlanInfo* info) {
   info->pass_count = uint32_t(p.passes.count);
   info->resource_count = uint32_t(p.resources.count);
   info->omission_count = uint32_t(p.omissions.count);
-  for (uint32_t i = 0; i < frame.hair_count; ++i) info->bytes_persistent += frame.hairs[i]->bytesDevice();
+  info->bytes_persistent = frame.bytes_persistent;
   info->bytes_transient = p.transientBytes();
   info->rect[0] = p.rect.x, info->rect[1] = p.rect.y, info->rect[2] = p.rect.width, info->rect[3] = p.rect.height;
   info->segment_count = p.segments;

@@ -106,7 +106,13 @@ FlkResult Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPro
   allocation = {};
   if (host_allocates_) {
     const VkResult result = allocator_.allocate(allocator_.user, &requirements, wanted, name, &allocation);
-    if (result == VK_SUCCESS) return FLK_SUCCESS;
+    if (result == VK_SUCCESS && ((wanted & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) == 0 || allocation.mapped)) return FLK_SUCCESS;
+    if (result == VK_SUCCESS) {
+      allocator_.free(allocator_.user, &allocation);
+      allocation = {};
+      messages.say(FLK_SEVERITY_ERROR, "DEVICE_MEMORY_NOT_MAPPED", "the host's device allocator left FlkDeviceAllocation.mapped NULL for %s", name);
+      return FLK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
     allocation = {};
     messages.say(FLK_SEVERITY_ERROR, "DEVICE_MEMORY", "the host's device allocator refused %" PRIu64 " bytes for %s", requirements.size, name);
     return toResult(result);

@@ -248,9 +248,14 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   facts.timestamps = asked.timestamps && (context_.device.planning() || context_.device.timestamp_bits > 0);
 
   PoolState pool = pool_;
-  const uint64_t estimate = estimateFragments(facts);
-  if (estimate) pool.capacity = choosePoolCapacity(pool, estimate, nodeLimit());
+  // A speck may be estimated at no fragment; while it is in view there is room for some.
+  pool.capacity = choosePoolCapacity(pool, std::max<uint64_t>(estimateFragments(facts), 1), nodeLimit());
   const FramePlan plan = planFrame(facts, pool.capacity);
+  if (plan.bytes(ResourceId::heads) > context_.device.limits.maxStorageBufferRange) {
+    messages.say(FLK_SEVERITY_ERROR, "HEADS_TOO_LARGE", "hair covers %u x %u pixels, whose list heads need %llu bytes, and the device binds at most %u: draw fewer pixels",
+                 plan.rect.width, plan.rect.height, static_cast<unsigned long long>(plan.bytes(ResourceId::heads)), context_.device.limits.maxStorageBufferRange);
+    return FLK_ERROR_LIMIT;
+  }
 
   VkPipeline shadow = VK_NULL_HANDLE, capture = VK_NULL_HANDLE, resolve = VK_NULL_HANDLE;
   if (plan.passes.count) {
@@ -264,12 +269,14 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   }
 
   // Nothing below fails.
-  pool_ = pool;
+  if (plan.passes.count) pool_ = pool;
   last_number_ = asked.frame_number;
   frame->number = asked.frame_number;
   frame->plan = plan;
   frame->recorded = false;
   frame->hair_count = asked.hair_count;
+  frame->bytes_persistent = 0;
+  for (uint32_t i = 0; i < asked.hair_count; ++i) frame->bytes_persistent += hairs[i]->bytesDevice();
   for (uint32_t i = 0; i < asked.hair_count; ++i) frame->hairs[i] = hairs[i];
   frame->shadow = shadow, frame->capture = capture, frame->resolve = resolve;
   frame->target = asked.target, frame->depth = asked.depth;

@@ -27,6 +27,7 @@ struct Frame {
   FramePlan plan;
   std::array<Hair*, kMaxHairs> hairs{};
   uint32_t hair_count = 0;
+  uint64_t bytes_persistent = 0;  // a plan may be asked after its hairs are gone
   VkPipeline shadow = VK_NULL_HANDLE, capture = VK_NULL_HANDLE, resolve = VK_NULL_HANDLE;
   VkDescriptorSet set = VK_NULL_HANDLE;
   bool set_has_depth = false, set_has_shadow = false;  // what has been written to it

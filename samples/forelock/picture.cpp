@@ -21,8 +21,9 @@ double luminance(const float* rgb) {
          0.0722 * static_cast<double>(rgb[2]);
 }
 
-// Hair of the brown of pictureMaterial is to come out at a mean of 0.055; lighter and darker hair keeps half (on a log scale) of its difference to
-// brown, so that black stays black and blond is not white. Highlights may not burn out over more than one pixel in 200.
+// Hair of the brown of pictureMaterial is to come out at a mean of 0.065; lighter and darker hair
+// keeps half (on a log scale) of its difference to that, so that black stays black and blond is not white. Highlights may
+// not burn out over more than one pixel in 200.
 double chooseExposure(const std::vector<float>& rgba, double radiance, const Stage& stage) {
   std::vector<double> values;
   for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
@@ -41,7 +42,7 @@ double chooseExposure(const std::vector<float>& rgba, double radiance, const Sta
   std::nth_element(values.begin(), high, values.end());
   const FlkMaterial brown = pictureMaterial();
   const double lightness = std::max(luminance(stage.assets[0].material.color), 0.004) / luminance(brown.color);
-  const double wanted = 0.055 * std::sqrt(lightness);
+  const double wanted = 0.065 * std::sqrt(lightness);
   const double scale = std::min(wanted / std::max(mean, 1e-9), 0.95 / std::max(*high, 1e-9));
   return radiance * std::clamp(scale, 1e-6, 1e6);
 }

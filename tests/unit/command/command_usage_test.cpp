@@ -1,0 +1,69 @@
+// Exit statuses, and that what is wrong is said on stderr in one line that names it.
+#include "command_run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using forelock::test::CommandRun;
+using forelock::test::runCommand;
+using forelock::test::smallRecipe;
+using forelock::test::writeScratch;
+
+namespace {
+
+void expectComplaint(const CommandRun& run, int status, const std::string& part) {
+  EXPECT_EQ(run.status, status) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err.rfind("forelock: ", 0), 0u) << run.err;
+  EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+}  // namespace
+
+TEST(CommandUsage, HelpOnEveryLevelShowsExamples) {
+  for (const char* level : {"", "preview ", "plan ", "inspect ", "convert ", "groom "}) {
+    const CommandRun run = runCommand(std::string(level) + "--help");
+    EXPECT_EQ(run.status, 0) << level;
+    EXPECT_NE(run.out.find("Examples:"), std::string::npos) << level;
+    EXPECT_NE(run.out.find(std::string("forelock ") + level), std::string::npos) << level;
+    EXPECT_EQ(run.err, "") << level;
+  }
+}
+
+TEST(CommandUsage, WrongUsageIsTwo) {
+  EXPECT_EQ(runCommand("").status, 2);
+  expectComplaint(runCommand("comb"), 2, "comb is no subcommand");
+  expectComplaint(runCommand("plan"), 2, "needs an ASSET");
+  expectComplaint(runCommand("plan x.tfx --frobnicate"), 2, "--frobnicate");
+  expectComplaint(runCommand("plan x.tfx --size 12"), 2, "--size is 12, must be WIDTHxHEIGHT");
+  expectComplaint(runCommand("plan x.tfx --size 1x20000"), 2, "[1, 16384]");
+  expectComplaint(runCommand("plan x.tfx --method best"), 2, "core_tail");
+  expectComplaint(runCommand("plan x.tfx --light 10"), 2, "--light is 10");
+  expectComplaint(runCommand("plan x.tfx --light=10,100"), 2, "[-90, 90]");
+  expectComplaint(runCommand("plan x.tfx --hair-color brown"), 2, "--hair-color is brown");
+  expectComplaint(runCommand("plan x.tfx --k 12 --k-sort 4"), 2, "k-sort is 4");
+  expectComplaint(runCommand("plan x.tfx --head --no-head"), 2, "--no-head");
+  expectComplaint(runCommand("preview x.tfx"), 2, "--out");
+  expectComplaint(runCommand("preview x.tfx -o x.jpg"), 2, "x.jpg: no picture format");
+  expectComplaint(runCommand("plan " + smallRecipe() + " --camera front"), 2, "stored are: side");
+}
+
+TEST(CommandUsage, WhatIsWrongWithAnAssetIsOne) {
+  expectComplaint(runCommand("plan nowhere.tfx"), 1, "nowhere.tfx: ");
+  expectComplaint(runCommand("plan groom:nowhere"), 1, "groom:nowhere: no such groom");
+  expectComplaint(runCommand("plan --scene nowhere.json"), 1, "nowhere.json: cannot be read");
+  const std::string scene = writeScratch("wrong.json", R"({"assets": [{"source": "a.tfx"}], "light": {"elevation": 120}})");
+  expectComplaint(runCommand("plan --scene \"" + scene + "\""), 1,
+                  "wrong.json: light.elevation is 120, must be a number in [-90, 90] degrees");
+}
+
+TEST(CommandUsage, NoDeviceIsThree) {
+  const std::string nothing = "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent ";
+  const std::string out = (forelock::test::scratchFolder() / "none.png").string();
+  const CommandRun run = runCommand("preview " + smallRecipe() + " -o " + out, nothing);
+  expectComplaint(run, 3, "no usable device");
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_EQ(runCommand("preview " + smallRecipe() + " -o " + out + " --device no-such-device").status, 3);
+}

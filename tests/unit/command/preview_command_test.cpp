@@ -1,0 +1,76 @@
+// `forelock preview` on the best device there is.
+#include "command_run.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+using forelock::test::readAll;
+using forelock::test::runCommand;
+using forelock::test::scratchFolder;
+using forelock::test::smallRecipe;
+
+namespace {
+
+nlohmann::json previewOf(const std::string& name, const std::string& arguments) {
+  const auto run = runCommand("preview --json --validation -o " + (scratchFolder() / name).string() + " " + arguments);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return nlohmann::json::parse(run.out, nullptr, false);
+}
+
+// Of a PNG's header.
+uint32_t bigEndian(const std::string& bytes, size_t at) {
+  uint32_t value = 0;
+  for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
+  return value;
+}
+
+}  // namespace
+
+TEST(PreviewCommand, DrawsHairOverTheBust) {
+  const nlohmann::json said = previewOf("hair.png", smallRecipe() + " --size 96x64");
+  ASSERT_TRUE(said.is_object());
+  EXPECT_GT(said.at("hair_pixels"), 100);
+  EXPECT_GE(said.at("fragments"), said.at("hair_pixels"));  // a pixel of hair has at least one fragment
+  EXPECT_EQ(said.at("fragments_lost"), 0);
+  EXPECT_GT(said.at("exposure"), 0.0);
+  const std::string png = readAll(scratchFolder() / "hair.png");
+  ASSERT_GT(png.size(), 33u);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(bigEndian(png, 16), 96u);
+  EXPECT_EQ(bigEndian(png, 20), 64u);
+  EXPECT_EQ(png[25], 6) << "colour type: with alpha";
+}
+
+TEST(PreviewCommand, SameCommandSamePicture) {
+  const std::string arguments = smallRecipe() + " --size 64x64 --method exact --no-head";
+  previewOf("one.png", arguments);
+  previewOf("two.png", arguments);
+  EXPECT_EQ(readAll(scratchFolder() / "one.png"), readAll(scratchFolder() / "two.png"));
+}
+
+TEST(PreviewCommand, EveryColorModeMethodAndFormat) {
+  for (const char* more : {"--color strand", "--color root-tip", "--color width", "--color depth", "--color layers",
+                           "--method forward", "--method forward --payload paper", "--k 0", "--no-shadow",
+                           "--hair-color 101010 --alpha 1 --width 2 --light=60,20 --background ffffff --up z"}) {
+    const nlohmann::json said = previewOf("mode.exr", smallRecipe() + " --size 48x48 " + more);
+    ASSERT_TRUE(said.is_object()) << more;
+    EXPECT_GT(said.at("hair_pixels"), 0) << more;
+  }
+}
+
+TEST(PreviewCommand, TurntableWritesViewsAndSheet) {
+  previewOf("turn.png", smallRecipe() + " --size 32x40 --turntable 3");
+  for (const char* name : {"turn-000.png", "turn-001.png", "turn-002.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(scratchFolder() / name)) << name;
+  }
+  const std::string sheet = readAll(scratchFolder() / "turn.png");
+  ASSERT_GT(sheet.size(), 33u);
+  EXPECT_EQ(bigEndian(sheet, 16), 64u);  // two columns, two rows
+  EXPECT_EQ(bigEndian(sheet, 20), 80u);
+}
+
+TEST(PreviewCommand, APictureThatCannotBeWrittenIsOne) {
+  const auto run = runCommand("preview " + smallRecipe() + " --size 16x16 -o /nonexistent/x.png");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.err.rfind("forelock: /nonexistent/x.png: ", 0), 0u) << run.err;
+}

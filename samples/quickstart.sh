@@ -34,9 +34,13 @@ build/forelock preview groom:long-wavy -o build/quickstart.png
 cat <<'TEXT'
 
 The picture is build/quickstart.png. What to try next:
-  build/forelock inspect FILE                      what is in a strand file (.tfx, .hair), and what is wrong with it
-  build/forelock preview FILE -o out.png --help    your own hair: colour, light, camera, method
-  build/forelock plan groom:long-wavy              the passes and bytes that a scene needs, and what is left out
-  build/forelock_minimal                           a host engine in one C file: samples/minimal/minimal.c
-  sh tests/run.sh                                  the tests
+  build/forelock preview FILE -o out.png                   your own hair (.tfx, .hair); --help: colour, light, camera, method
+  build/forelock preview groom:long-wavy -o out.png --hair-color c9a26b --azimuth 200
+  build/forelock preview groom:long-wavy -o out.png --color layers     how many fragments a pixel has
+  build/forelock preview groom:long-wavy -o out.png --turntable 6 --size 512x512
+  build/forelock inspect FILE                              what is in a strand file, and what is wrong with it
+  build/forelock plan groom:long-wavy                      the passes and bytes that a frame needs, and what is left out
+  build/forelock_minimal                                   a host engine in one C file: samples/minimal/minimal.c
+  sh tests/run.sh                                          the tests
+Scenes, grooms and methods are explained in docs/scene.md, docs/grooms.md and docs/methods.md.
 TEXT

@@ -47,10 +47,13 @@ double coverageAt(const ScreenSegment& segment, const Placed& at) {
   const double h = mix(s.h_a, s.h_b, at.v);
   const double strip = pixelHalfArea(at.x + h, s.n.x, s.n.y) - pixelHalfArea(at.x - h, s.n.x, s.n.y);
   const double per_fraction = s.l / (segment.fraction_b - segment.fraction_a);
+  // Distances from the lines that split it from its neighbours, along t: a mitre is no way past the strand's end.
+  const double from_root = at.y - at.x * s.tau_a + segment.fraction_a * per_fraction;
+  const double to_tip = s.l - at.y - at.x * s.tau_b + (1 - segment.fraction_b) * per_fraction;
   // A pixel seen along t has the same extents as along n, with the components swapped.
-  const double root = pixelHalfArea(at.y + segment.fraction_a * per_fraction, s.t.x, s.t.y) + 0.5;
-  const double tip = pixelHalfArea(s.l - at.y + (1 - segment.fraction_b) * per_fraction, s.t.x, s.t.y) + 0.5;
-  return strip * std::max(root + tip - 1, 0.0);
+  const double root = pixelHalfArea(from_root, s.t.x, s.t.y) + 0.5;
+  const double tip = pixelHalfArea(to_tip, s.t.x, s.t.y) + 0.5;
+  return s.share * strip * std::max(root + tip - 1, 0.0);
 }
 
 // The segment parameter in 3-D and the depth there.
@@ -91,8 +94,8 @@ Vec3 codedTangent(Vec3 tangent, Payload payload) {
   if (payload == Payload::unquantised) return tangent;
   const double steps = payload == Payload::standard ? 2046 : 4094;  // 2^bits - 2
   const double sum = std::fabs(tangent.x) + std::fabs(tangent.y) + std::fabs(tangent.z);
-  // A zero tangent has no code of its own: it takes that of +z.
-  double u = sum > 0 ? tangent.x / sum : 0, v = sum > 0 ? tangent.y / sum : 0;
+  if (!(sum > 0)) return {};  // has a code of its own
+  double u = tangent.x / sum, v = tangent.y / sum;
   auto fold = [](double& p, double& q) {
     const double old = p;
     p = (1 - std::fabs(q)) * (p >= 0 ? 1 : -1);

@@ -4,7 +4,8 @@
 namespace forelock::reference {
 namespace {
 
-constexpr double shortest_px = 1e-6;  // methods.md section 1
+constexpr double shortest_px = 1e-6;   // methods.md section 1
+constexpr double steepest_split = 2;  // slope of a split line: a mitre of 127 degrees
 
 struct ViewVertex {
   Vec3 p;  // view space
@@ -27,15 +28,15 @@ void shapeJoint(PlaneSegment& p, PlaneSegment& n, bool flush) {
   const double reach = std::max(p.h_b + (flush ? 0 : p.extent), n.h_a + (flush ? 0 : n.extent));
   const double turn = cross(p.t, n.t), along = 1 + dot(p.t, n.t);
   // tan(theta / 2) = sin / (1 + cos); a full turn back has no finite mitre.
-  const double mitre = along > 1e-15 ? reach * std::fabs(turn) / along : std::numeric_limits<double>::infinity();
-  const double limit = std::min(p.l, n.l) / 2;
-  const double k = std::min(mitre, limit), g = turn > 0 ? 1 : turn < 0 ? -1 : 0;
+  const double mitre = along > 1e-15 ? std::fabs(turn) / along : std::numeric_limits<double>::infinity();
+  const double g = turn > 0 ? 1 : turn < 0 ? -1 : 0;
+  p.tau_b = n.tau_a = g * std::min(mitre, steepest_split);
   for (const int s : {-1, 1}) {
-    const Vec2 end = p.b + (s * reach) * p.n - (s * g * k) * p.t;
-    const Vec2 start = n.a + (s * reach) * n.n + (s * g * k) * n.t;
+    const Vec2 end = p.b + (s * reach) * p.n - (s * reach * p.tau_b) * p.t;
+    const Vec2 start = n.a + (s * reach) * n.n + (s * reach * n.tau_a) * n.t;
     p.corner[s > 0 ? 2 : 3] = end;
     // Not clamped they are one point; rounding must not open a gap along a row of pixel centres.
-    n.corner[s > 0 ? 1 : 0] = mitre <= limit ? end : start;
+    n.corner[s > 0 ? 1 : 0] = mitre <= steepest_split ? end : start;
   }
 }
 
@@ -44,6 +45,36 @@ void shapeEnd(PlaneSegment& segment, bool root, double e, bool flush) {
   const Vec2 base = root ? segment.a - e * segment.t : segment.b + e * segment.t;
   segment.corner[root ? 0 : 3] = base - reach * segment.n;
   segment.corner[root ? 1 : 2] = base + reach * segment.n;
+}
+
+// Beyond the point where its two split lines meet nothing belongs to the segment.
+void cutCrossing(PlaneSegment& s) {
+  const double slope = s.tau_a + s.tau_b;
+  if (slope == 0) return;
+  const double x = (s.l + s.e_root + s.e_tip) / slope;
+  double reach = 0;
+  for (const Vec2& c : s.corner) reach = std::max(reach, std::fabs(dot(c - s.a, s.n)));
+  if (!(std::fabs(x) < reach)) return;
+  const Vec2 meeting = s.a + x * s.n + (x * s.tau_a - s.e_root) * s.t;
+  if (x > 0) s.corner[1] = s.corner[2] = meeting;
+  else s.corner[0] = s.corner[3] = meeting;
+}
+
+// Mean of max(x - t, 0)^2 / 2 over the trapezoid kernel of F at t: section 2's Q.
+double beyond(double t, double a, double b) {
+  if (t < 0) return t * t / 2 + 1.0 / 24 - beyond(-t, a, b);
+  const double rest = (a + b) / 2 - t;
+  if (rest <= 0) return 0;
+  if (t > (a - b) / 2) return std::pow(rest, 4) / (24 * a * b);
+  return 1.0 / 48 - t * (3 * a * a + b * b) / (24 * a) + t * t / 4 - t * t * t / (6 * a);
+}
+
+double shareOf(const PlaneSegment& s) {
+  const double slope = std::fabs(s.tau_a + s.tau_b), h = (s.h_a + s.h_b) / 2;
+  if (slope * (h + s.extent) <= s.l || !(h > 0)) return 1;
+  const double a = std::max(std::fabs(s.n.x), std::fabs(s.n.y)), b = std::min(std::fabs(s.n.x), std::fabs(s.n.y));
+  const double x = s.l / slope;
+  return 1 / (1 + (beyond(x - h, a, b) - beyond(x + h, a, b)) / (2 * h * x));
 }
 
 }  // namespace
@@ -76,6 +107,11 @@ void shapeStrand(std::span<PlaneSegment> segments, bool flush) {
     if (!joins_before) shapeEnd(segment, true, segment.e_root, flush);
     if (!joins_after) shapeEnd(segment, false, segment.e_tip, flush);
     if (joins_after) shapeJoint(segment, segments[i + 1], flush);
+  }
+  for (PlaneSegment& segment : segments) {
+    if (!segment.exists) continue;
+    cutCrossing(segment);
+    if (!flush) segment.share = shareOf(segment);
   }
 }
 

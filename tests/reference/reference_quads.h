@@ -18,7 +18,9 @@ struct PlaneSegment {
   double l = 0, extent = 0;            // extent: E, half a pixel seen along n
   bool has_root = false, has_tip = false;
   double e_root = 0, e_tip = 0;        // reach of the end ramps beyond the strand
-  Vec2 corner[4];                      // start -n, start +n, end +n, end -n
+  double tau_a = 0, tau_b = 0;         // slopes of the split lines: x tau_a <= y < l - x tau_b
+  double share = 1;                    // m: what keeps the area where the split lines cross
+  Vec2 corner[4];                      // start -n, start +n, end +n, end -n; two are one where the lines cross
 };
 
 // direction, normal and length; false where the segment makes no quad.

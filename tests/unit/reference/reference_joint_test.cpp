@@ -27,7 +27,7 @@ AreaError areaError(double width, double l, double bend, bool alternate, int sam
       high_x = std::max(high_x, p.x);
       high_y = std::max(high_y, p.y);
     }
-    const double margin = width + l / 2 + 3;  // a mitre reaches l / 2 at most
+    const double margin = 2 * width + 6;  // a mitre reaches twice half a width and a pixel at most
     const double ox = uniform(random) + margin - low_x, oy = uniform(random) + margin - low_y;
     for (Point& p : points) p = {p.x + ox, p.y + oy};
     const Camera camera = pixelCamera(int(high_x - low_x + 2 * margin + 2), int(high_y - low_y + 2 * margin + 2));

@@ -87,7 +87,8 @@ glm::vec3 shadePoint(const BustLook& look, const glm::vec3& to_light, const glm:
   const float cosine = std::max(glm::dot(normal, half), 0.0f);
   const float square = cosine * cosine;
   const float gloss = 0.05f * lit * square * square * square * square;
-  const glm::vec3 arriving = look.light * (lit * 0.3183099f) + look.ambient * (sky * open * (0.4f + 0.6f * through));  // what hides the light hides much of the sky
+  const float sky_through = 0.4f + 0.6f * through;  // what hides the light hides much of the sky
+  const glm::vec3 arriving = look.light * (lit * 0.3183099f) + look.ambient * (sky * open * sky_through);
   return look.albedo * arriving + look.light * (gloss * 0.3183099f);
 }
 

@@ -380,6 +380,7 @@ std::vector<std::string>& HeadlessHost::messages() { return impl_->messages; }
 
 bool HeadlessHost::resize(uint32_t width, uint32_t height) {
   Impl& i = *impl_;
+  if (i.width == width && i.height == height && i.color.view && i.depth.view) return true;
   i.destroyImage(i.color);
   i.destroyImage(i.depth);
   i.width = width, i.height = height;

@@ -33,7 +33,7 @@ public:
   std::vector<std::string>& validationMessages();
   std::vector<std::string>& messages();
 
-  // Images for frames of this size. False: no device memory.
+  // Images for frames of this size; forgets background and depth where it changes. False: no device memory.
   bool resize(uint32_t width, uint32_t height);
   // What hair is drawn over: width x height x RGBA, linear, premultiplied; empty: transparent black.
   void setBackground(std::vector<float> rgba);

@@ -70,7 +70,7 @@ struct Scene {
 // Throws SceneError.
 Scene parseScene(const std::string& text);
 
-// Throws SceneError, also when the file cannot be read. Sources that are relative paths are relative to the scene's folder.
+// Throws SceneError, also when the file cannot be read. Relative paths of sources start at the scene's folder.
 Scene loadScene(const std::string& path);
 
 // A scene that parseScene reads back as it was.

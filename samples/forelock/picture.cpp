@@ -21,9 +21,9 @@ double luminance(const float* rgb) {
          0.0722 * static_cast<double>(rgb[2]);
 }
 
-// Hair of the brown of pictureMaterial is to come out at a mean of 0.065; lighter and darker hair
-// keeps half (on a log scale) of its difference to that, so that black stays black and blond is not white. Highlights may
-// not burn out over more than one pixel in 200.
+// Hair of the brown of pictureMaterial is to come out at a mean of 0.065; lighter and darker hair keeps half (on a log
+// scale) of its difference to that, so that black stays black and blond is not white. Highlights may not burn out over
+// more than one pixel in 200.
 double chooseExposure(const std::vector<float>& rgba, double radiance, const Stage& stage) {
   std::vector<double> values;
   for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
@@ -53,7 +53,8 @@ float depthValue(const float projection[16], float depth) {
   return std::clamp(z / w, 0.0f, 1.0f);
 }
 
-// docs/methods.md section 4 for a point of the bust, over a wider neighbourhood: skin scatters light.
+// docs/methods.md section 4 for a point of the bust, averaged over a disc: the map's strands are a texel wide and would
+// draw their pattern on the skin.
 struct HairShadow {
   std::vector<float> depth;  // map values
   FlkShadowMap map{};

@@ -206,8 +206,8 @@ int runPreview(const CLI::App& command, const PreviewArguments& arguments) {
     printText(arguments, *host, stage, picture);
   }
   if (picture.hair_pixels == 0) {
-    std::fprintf(stderr, "forelock: %s: no hair is in the picture; look at `forelock inspect`, or at --camera and --width\n",
-                 arguments.out.c_str());
+    std::fprintf(stderr, "forelock: %s: no hair is in the picture; look at `forelock inspect`, or at --camera and "
+                         "--width\n", arguments.out.c_str());
   }
   for (const std::string& message : host->validationMessages()) {
     std::fprintf(stderr, "forelock: validation: %s\n", message.c_str());
@@ -225,7 +225,7 @@ void addPreviewCommand(CLI::App& program, int& exit_code) {
       ->required()->type_name("OUT");
   command->add_option("--turntable", arguments->turntable, "Views all around, OUT-000 and on, and OUT as their sheet")
       ->check(CLI::Range(2u, 999u))->type_name("N");
-  command->add_option("--device", arguments->device, "Part of the device's name [a discrete GPU, else the best there is]")
+  command->add_option("--device", arguments->device, "Part of its name [a discrete GPU, else the best there is]")
       ->type_name("NAME");
   command->add_flag("--validation", arguments->validation, "With Vulkan's validation layers; a message is a failure");
   command->add_flag("--json", arguments->json, "Print the numbers as JSON");

@@ -29,7 +29,8 @@ void readSize(const std::string& text, Scene& scene) {
 glm::dvec3 readColor(const char* option, const std::string& text) {
   glm::dvec3 linear;
   if (!parseHexColor(text, linear)) {
-    throw UsageError(std::string(option) + " is " + text + ", must be six hexadecimal digits of sRGB, for example 6b4226");
+    throw UsageError(std::string(option) + " is " + text +
+                     ", must be six hexadecimal digits of sRGB, for example 6b4226");
   }
   return linear;
 }

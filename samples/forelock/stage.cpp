@@ -90,13 +90,12 @@ Stage openStage(const Scene& scene) {
     on_bust = on_bust || (asset.opened.recipe && asset.opened.recipe->drape_on_bust);
   }
   for (const StagedAsset& asset : stage.assets) {  // only now, because the list no longer moves
-    for (const RecipeCamera& camera : asset.opened.recipe ? asset.opened.recipe->cameras : std::vector<RecipeCamera>{}) {
-      known += " " + camera.name;
+    if (!asset.opened.recipe) {
+      continue;
     }
-    if (asset.opened.recipe) {
-      for (const RecipeCamera& camera : asset.opened.recipe->cameras) {
-        stored = !stored && camera.name == scene.camera.name ? &camera : stored;
-      }
+    for (const RecipeCamera& camera : asset.opened.recipe->cameras) {
+      known += " " + camera.name;
+      stored = !stored && camera.name == scene.camera.name ? &camera : stored;
     }
   }
   if (!scene.camera.name.empty() && !stored) {
@@ -222,8 +221,8 @@ std::string methodText(const Scene& scene) {
   }
   const uint32_t k = scene.k == FLK_K_NONE ? 0 : scene.k == 0 ? 8 : scene.k;
   const uint32_t k_sort = scene.k_sort == 0 ? std::max(8u, k) : scene.k_sort;
-  return methodNames()[scene.method] + ", " + (scene.method == FLK_METHOD_CORE_TAIL ? "k " + std::to_string(k) + ", " : "") +
-         "k_sort " + std::to_string(k_sort) + payload;
+  const std::string shaded = scene.method == FLK_METHOD_CORE_TAIL ? ", k " + std::to_string(k) : "";
+  return methodNames()[scene.method] + shaded + ", k_sort " + std::to_string(k_sort) + payload;
 }
 
 }  // namespace forelock::samples

@@ -96,6 +96,15 @@ TEST_F(Recording, allPassesOfALitFrame) {
   EXPECT_LE(info.rect[1] + info.rect[3], 200u);
 }
 
+// The mistake of a first day: its buffers hold anything, so it is left out and said.
+TEST_F(Recording, hairThatWasNotUploadedIsLeftOut) {
+  forelock::Hair forgotten = scene.createHair(asset, false);
+  FlkFrame frame = scene.frame(++number, number - 1, {forgotten});
+  ASSERT_EQ(scene.render(view, frame, &plan), FLK_SUCCESS);
+  EXPECT_EQ(scene.driver.countCommands("vkCmdDrawIndexed"), 0u);
+  EXPECT_EQ(scene.message_ids.back(), "HAIR_NOT_UPLOADED");
+}
+
 TEST_F(Recording, everyMethodAndDisplay) {
   for (uint32_t method = 0; method <= FLK_METHOD_FORWARD; ++method)
     for (uint32_t display = 0; display <= FLK_DISPLAY_LAYERS; ++display)

@@ -58,11 +58,15 @@ Scene::Scene() : desc(forelock::contextDesc()) {
   depth_ = driver.hostImage(&depth_view_);
 }
 
-forelock::Hair Scene::createHair(FlkAsset asset) {
+forelock::Hair Scene::createHair(FlkAsset asset, bool upload) {
   FlkHairDesc hair_desc = forelock::hairDesc();
   hair_desc.asset = asset;
   forelock::Hair hair;
   EXPECT_EQ(forelock::create(context, hair_desc, hair), FLK_SUCCESS) << last_message;
+  if (desc.device && upload) {
+    driver.beginCommandBuffer();
+    EXPECT_EQ(flkCmdUpload(driver.command_buffer, hair), FLK_SUCCESS);
+  }
   return hair;
 }
 

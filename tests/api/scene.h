@@ -27,7 +27,8 @@ public:
   forelock::Context context;
 
   FlkResult createContext() { return forelock::create(desc, context); }
-  forelock::Hair createHair(FlkAsset asset);
+  // Uploaded, unless there is no device or the test is about forgetting that.
+  forelock::Hair createHair(FlkAsset asset, bool upload = true);
   forelock::View createView(uint32_t frames_in_flight = 0, uint64_t pool_budget = 0);
 
   // A frame of 320 x 200 with the camera 0.6 m in front of the tuft, a light that casts a shadow, depth and all.

@@ -76,7 +76,6 @@ StrandArrays loadStrands(const std::string& source, uint32_t stride) {
 }
 
 std::string hairdata(const std::string& file) { return std::string(FORELOCK_HAIRDATA) + "/" + file; }
-bool haveHairdata(const std::string& file) { return std::filesystem::exists(hairdata(file)); }
 
 ViewSpec frameStrands(const StrandArrays& strands, int width, int height) {
   double low[3] = {1e30, 1e30, 1e30}, high[3] = {-1e30, -1e30, -1e30};
@@ -203,11 +202,7 @@ void Scene::expose(double mean) {
 
 std::vector<float> Scene::render(FlkFrame frame) {
   samples::HeadlessHost& h = host();
-  static int width = 0, height = 0;
-  if (width != view_spec.width || height != view_spec.height) {
-    width = view_spec.width, height = view_spec.height;
-    EXPECT_TRUE(h.resize(uint32_t(width), uint32_t(height)));
-  }
+  EXPECT_TRUE(h.resize(uint32_t(view_spec.width), uint32_t(view_spec.height)));
   std::copy(camera.view_from_world, camera.view_from_world + 16, frame.view_from_world);
   for (int i = 0; i < 16; ++i) frame.clip_from_view[i] = float(camera.clip_from_view[i]);
   frame.reversed_depth = view_spec.projection.reversed;

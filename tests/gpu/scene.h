@@ -25,7 +25,6 @@ struct StrandArrays {
 
 // `groom:NAME` or a file; every `stride`-th strand. Fails the test when it cannot be opened.
 StrandArrays loadStrands(const std::string& source, uint32_t stride = 1);
-bool haveHairdata(const std::string& file);
 std::string hairdata(const std::string& file);
 
 // The grooms and files that every bound is checked on; `stride` thins one so that 5-pixel strands fit the lists at 256x256.

@@ -120,7 +120,8 @@ typedef struct FlkHairDesc {
 } FlkHairDesc;
 
 /* Device memory: 16 bytes a vertex and 4 a segment (see FlkHairInfo); staging of the same size until the upload is
- * released. Cost: one pass over the strands. Transform: identity. */
+ * released. Cost: one pass over the strands. Transform: identity. FLK_ERROR_LIMIT: one of the buffers exceeds
+ * maxStorageBufferRange (at 128 MiB: 11 million vertices); FLK_ERROR_OUT_OF_HOST_MEMORY, FLK_ERROR_OUT_OF_DEVICE_MEMORY. */
 FLK_API FlkResult flkHairCreate(FlkContext context, const FlkHairDesc* desc, FlkHair* hair);
 
 /* Records the copy of a hair to the device. Once, before the first frame that draws it is recorded, on a queue of the
@@ -134,8 +135,8 @@ FLK_API FlkResult flkCmdUpload(VkCommandBuffer cmd, FlkHair hair);
  * the hair. */
 FLK_API void flkHairReleaseStaging(FlkHair hair);
 
-/* Affine transform as a column-major 4x4 (last row 0 0 0 1), from asset to world. Rigid or with uniform scale: widths scale
- * by the cube root of its determinant. Holds for plans made afterwards. */
+/* Rigid transform, with a uniform scale if need be, as a column-major 4x4 (last row 0 0 0 1), from asset to world. Widths
+ * scale by the cube root of its determinant. Holds for plans made afterwards. */
 FLK_API FlkResult flkHairSetTransform(FlkHair hair, const double world_from_hair[16]);
 FLK_API FlkResult flkHairSetMaterial(FlkHair hair, const FlkMaterial* material);
 
@@ -146,7 +147,7 @@ typedef struct FlkHairInfo {
 } FlkHairInfo;
 FLK_API FlkResult flkHairGetInfo(FlkHair hair, FlkHairInfo* info);
 
-/* No frame in flight may use it; NULL is allowed. */
+/* No plan that is still to be recorded and no frame in flight may use it; NULL is allowed. */
 FLK_API void flkHairDestroy(FlkHair hair);
 
 /* ---- View --------------------------------------------------------------------------------------------------------- */
@@ -187,7 +188,8 @@ typedef struct FlkColorTarget {
 
 /* The opaque scene's depth, same size as the target; it is read, never written, and its layout does not change. */
 typedef struct FlkDepthSource {
-  VkImage image;           /* any depth format, 1 sample, VK_IMAGE_USAGE_SAMPLED_BIT; VK_NULL_HANDLE: nothing hides hair */
+  VkImage image;           /* any depth format, 1 sample, VK_IMAGE_USAGE_SAMPLED_BIT; VK_NULL_HANDLE, and view too: nothing
+                              hides hair. In a planning context any other `view` says that there is depth */
   VkImageView view;        /* 2D, depth aspect only */
   VkFormat format;
   VkSampleCountFlagBits samples;
@@ -250,18 +252,19 @@ typedef struct FlkFrame {
 /* Decides what the frame needs and readies it: memory, pipelines (compiled here, in this call, when first needed; some
  * 10 ms each), descriptors. Uses the fragment count of the last completed frame to size the lists; before there is one,
  * an upper estimate within the budget. The plan lives until its frame has completed and frames_in_flight later ones are
- * planned, or the view's end.
+ * planned, or the view's end. A plan whose commands will never be submitted (a minimised window) counts as completed.
  * Memory that a smaller or larger one replaces is freed when `completed_frame` allows it.
  * FLK_ERROR_UNSUPPORTED_IMAGE: target or depth (the message says which field); FLK_ERROR_TOO_MANY_FRAMES:
- * frames_in_flight plans of this view have not completed; FLK_ERROR_LIMIT: the hair covers more pixels than list heads of
- * 4 bytes can be bound for (maxStorageBufferRange; 33 million at 128 MiB); FLK_ERROR_OUT_OF_DEVICE_MEMORY. */
+ * frames_in_flight plans of this view have not completed; FLK_ERROR_LIMIT: target or shadow map exceed what the device
+ * draws to, or the hair covers more pixels than list heads of 4 bytes can be bound for (maxStorageBufferRange; 33 million at
+ * 128 MiB); FLK_ERROR_INVALID_ARGUMENT: the message says which field; FLK_ERROR_OUT_OF_HOST_MEMORY, ..._DEVICE_MEMORY. */
 FLK_API FlkResult flkPlanFrame(FlkView view, const FlkFrame* frame, FlkPlan* plan);
 
 /* Records the plan: no allocation, no compilation, no file. Once a plan. Outside rendering, on a queue with graphics and
  * compute; the same VkCommandBuffer may hold other work before and after.
  *   reads: hairs, depth source   writes: colour target, the view's own memory
  *   stages: CLEAR and COPY, VERTEX_SHADER and FRAGMENT_SHADER and fragment tests (capture, shadow), COMPUTE_SHADER (resolve)
- *   clobbers: pipelines, descriptor sets 0 and 1, push constants, index buffer, viewport and scissor, of graphics and compute
+ *   clobbers: pipelines, descriptor sets 0 and 1, push constants, index buffer and all dynamic state, of graphics and compute
  * With nothing to draw it records only the barrier that target.entry and target.exit ask for. */
 FLK_API void flkCmdRender(VkCommandBuffer cmd, FlkPlan plan);
 
@@ -301,7 +304,7 @@ FLK_API const char* flkPlanGetOmission(FlkPlan plan, uint32_t index);
 
 typedef struct FlkStatistics {
   uint64_t frame_number;
-  uint64_t fragments;         /* that passed the tests, stored or not: exact */
+  uint64_t fragments;         /* that passed the tests, stored or not: exact up to 4,026,531,840, where it stays */
   uint64_t fragments_lost;    /* did not fit into the lists (then the picture lacks them; the next plan grows) */
   double milliseconds[FLK_STAGE_COUNT]; /* by FLK_STAGE_...; -1: not timed or not run */
 } FlkStatistics;
@@ -312,8 +315,8 @@ FLK_API FlkResult flkViewGetStatistics(FlkView view, uint64_t completed_frame, F
 
 /* The view's shadow map of light `index` as the latest plan left it, for the host to shade its scene with hair's shadow.
  * After flkCmdRender: layout SHADER_READ_ONLY_OPTIMAL, written by the shadow pass, visible to COMPUTE_SHADER and
- * FRAGMENT_SHADER sampled reads. D32_SFLOAT, 1 where empty; depth in metre = value x depth_range. FLK_NOT_READY: the latest
- * plan has no such map. */
+ * FRAGMENT_SHADER sampled reads. D32_SFLOAT, 1 where empty; depth in metre = value x depth_range. Image and view live until a
+ * later plan of another shadow_size, or without a map, has completed. FLK_NOT_READY: the latest plan has no such map. */
 typedef struct FlkShadowMap {
   VkImage image;
   VkImageView view;

@@ -109,7 +109,8 @@ const char* frameFault(const FlkFrame& frame) {
   if (frame.display > FLK_DISPLAY_LAYERS) return "frame.display is none of FLK_DISPLAY_...";
   if (frame.k != FLK_K_NONE && frame.k > forelock::kMaxSort) return "frame.k must be at most 32, or FLK_K_NONE";
   if (frame.k_sort > forelock::kMaxSort) return "frame.k_sort must be at most 32";
-  if (frame.k_sort && frame.k != FLK_K_NONE && frame.k_sort < (frame.k ? frame.k : 8)) return "frame.k_sort must not be less than k";
+  if (frame.method == FLK_METHOD_CORE_TAIL && frame.k_sort && frame.k != FLK_K_NONE && frame.k_sort < (frame.k ? frame.k : 8))
+    return "frame.k_sort must not be less than k";
   return nullptr;
 }
 
@@ -197,7 +198,7 @@ FlkResult flkHairCreate(FlkContext context, const FlkHairDesc* desc, FlkHair* ha
 
 FlkResult flkCmdUpload(VkCommandBuffer cmd, FlkHair hair) {
   if (!cmd || !hair) return FLK_ERROR_INVALID_ARGUMENT;
-  const Hair& object = *toHair(hair);
+  Hair& object = *toHair(hair);
   const forelock::Device& device = object.context().device;
   if (device.planning()) return invalid(device.messages, "flkCmdUpload needs a context with a device");
   if (!object.bytesStaging()) return invalid(device.messages, "flkCmdUpload: the staging memory of this hair has been released");

@@ -27,9 +27,7 @@ FlkResult toResult(VkResult result) {
 FlkResult Device::init(const FlkContextDesc& desc, const Messages& context_messages) {
   messages = context_messages;
   if (desc.device == VK_NULL_HANDLE) {
-    // What a plan may assume of a device that is not there yet: the least that Vulkan promises, but for storage ranges, where
-    // 128 MiB is the least seen in practice.
-    limits.maxStorageBufferRange = 1u << 27;
+    limits.maxStorageBufferRange = 1u << 27;  // the least that Vulkan promises of a device that is not there yet
     return FLK_SUCCESS;
   }
 

@@ -47,7 +47,7 @@ FlkResult Hair::init(const FlkHairDesc& desc, const FlkStrands& strands) {
   Device& device = context_.device;
   const char* names[] = {"hair positions", "hair attributes", "hair segments"};
   for (int i = 0; i < 3; ++i) {
-    if (!device.planning() && bytes_[i] > device.limits.maxStorageBufferRange) {
+    if (bytes_[i] > device.limits.maxStorageBufferRange) {
       device.messages.say(FLK_SEVERITY_ERROR, "HAIR_TOO_LARGE", "%s need %llu bytes, the device binds at most %u: split the asset",
                           names[i], static_cast<unsigned long long>(bytes_[i]), device.limits.maxStorageBufferRange);
       return FLK_ERROR_LIMIT;
@@ -61,9 +61,7 @@ FlkResult Hair::init(const FlkHairDesc& desc, const FlkStrands& strands) {
   if (result != FLK_SUCCESS) return destroy(), result;
 
   try {
-    auto* base = static_cast<unsigned char*>(staging_.memory.mapped);
-    fill(strands, desc.flags & FLK_HAIR_KEEP_ORDER, desc.shuffle_seed, reinterpret_cast<float*>(base),
-         reinterpret_cast<uint32_t*>(base + bytes_[0]), reinterpret_cast<uint32_t*>(base + bytes_[0] + bytes_[1]));
+    fill(strands, desc.flags & FLK_HAIR_KEEP_ORDER, desc.shuffle_seed, static_cast<unsigned char*>(staging_.memory.mapped));
   } catch (...) {
     destroy();
     throw;
@@ -72,8 +70,11 @@ FlkResult Hair::init(const FlkHairDesc& desc, const FlkStrands& strands) {
 }
 
 // With a planning device only lengths are taken.
-void Hair::fill(const FlkStrands& strands, bool keep_order, uint32_t seed, float* positions, uint32_t* attributes, uint32_t* segments) {
-  const bool store = !context_.device.planning();
+void Hair::fill(const FlkStrands& strands, bool keep_order, uint32_t seed, unsigned char* staging) {
+  const bool store = staging != nullptr;
+  auto* positions = reinterpret_cast<float*>(staging);
+  auto* attributes = store ? reinterpret_cast<uint32_t*>(staging + bytes_[0]) : nullptr;
+  auto* segments = store ? reinterpret_cast<uint32_t*>(staging + bytes_[0] + bytes_[1]) : nullptr;
   std::pmr::vector<uint32_t> order(strand_count, &context_.memory());
   for (uint32_t i = 0; i < strand_count; ++i) order[i] = i;
   if (!keep_order) {
@@ -150,7 +151,8 @@ void Hair::destroy() {
   device.destroy(staging_);
 }
 
-void Hair::upload(VkCommandBuffer cmd) const {
+void Hair::upload(VkCommandBuffer cmd) {
+  uploaded = true;
   const Functions& fn = context_.device.fn;
   uint64_t offset = 0;
   for (int i = 0; i < 3; ++i) {
@@ -177,7 +179,6 @@ HairFacts Hair::facts() const {
   HairFacts facts;
   const double scale = std::cbrt(std::abs(determinant3(world_from_hair)));
   facts.segments = segment_count;
-  facts.bytes_device = bytesDevice();
   facts.bounds = bounds_;
   facts.world_from_hair = world_from_hair;
   facts.radius = double(radius_max) * material.width_scale * scale;

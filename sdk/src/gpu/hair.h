@@ -16,7 +16,7 @@ public:
 
   FlkResult init(const FlkHairDesc& desc, const FlkStrands& strands);
   void destroy();
-  void upload(VkCommandBuffer cmd) const;
+  void upload(VkCommandBuffer cmd);
   void releaseStaging();
   HairFacts facts() const;
   Context& context() const { return context_; }
@@ -24,6 +24,7 @@ public:
   FlkMaterial material{};
   Mat4 world_from_hair = kIdentity;
   VkDescriptorSet set = VK_NULL_HANDLE;
+  bool uploaded = false;  // recorded at least
   uint32_t strand_count = 0, vertex_count = 0, segment_count = 0;
   float radius_max = 0;  // of the asset
 
@@ -31,7 +32,7 @@ public:
   uint64_t bytesStaging() const { return staging_.size; }
 
 private:
-  void fill(const FlkStrands& strands, bool keep_order, uint32_t seed, float* positions, uint32_t* attributes, uint32_t* segments);
+  void fill(const FlkStrands& strands, bool keep_order, uint32_t seed, unsigned char* staging);
   FlkResult createSet();
 
   Context& context_;

@@ -7,7 +7,13 @@
 namespace forelock {
 namespace {
 
-constexpr VkShaderStageFlags kAllStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
+// Only the stages that read a binding: no stage sees more than 4 storage buffers, the least that every device offers.
+constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT, kFragment = VK_SHADER_STAGE_FRAGMENT_BIT, kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
+
+struct BindingKind {
+  VkDescriptorType type;
+  VkShaderStageFlags stages;
+};
 
 VkResult createShader(Device& device, ShaderId id, VkShaderModule& module) {
   const auto code = shaderCode(id);
@@ -88,9 +94,9 @@ VkResult createRaster(Device& device, VkPipelineLayout layout, VkShaderModule ve
   return device.fn.vkCreateGraphicsPipelines(device.device, device.pipeline_cache, 1, &info, nullptr, &pipeline);
 }
 
-VkResult createSetLayout(Device& device, const VkDescriptorType* types, uint32_t count, VkDescriptorSetLayout& layout) {
+VkResult createSetLayout(Device& device, const BindingKind* kinds, uint32_t count, VkDescriptorSetLayout& layout) {
   VkDescriptorSetLayoutBinding bindings[8]{};
-  for (uint32_t i = 0; i < count; ++i) bindings[i] = {i, types[i], 1, kAllStages, nullptr};
+  for (uint32_t i = 0; i < count; ++i) bindings[i] = {i, kinds[i].type, 1, kinds[i].stages, nullptr};
   VkDescriptorSetLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   info.bindingCount = count;
@@ -103,8 +109,9 @@ VkResult createSetLayout(Device& device, const VkDescriptorType* types, uint32_t
 FlkResult Pipelines::init(Device& device) {
   if (device.planning()) return FLK_SUCCESS;
   constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kImage = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-  const VkDescriptorType view_types[] = {kBuffer, kBuffer, kBuffer, kImage, kImage, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
-  const VkDescriptorType hair_types[] = {kBuffer, kBuffer, kBuffer};
+  const BindingKind view_types[] = {{kBuffer, kVertex | kFragment | kCompute}, {kBuffer, kFragment | kCompute}, {kBuffer, kFragment | kCompute},
+                                    {kImage, kFragment}, {kImage, kFragment | kCompute}, {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kCompute}};
+  const BindingKind hair_types[] = {{kBuffer, kVertex}, {kBuffer, kVertex}, {kBuffer, kVertex}};
   VkResult result = createSetLayout(device, view_types, uint32_t(std::size(view_types)), view_set);
   if (result != VK_SUCCESS) view_set = VK_NULL_HANDLE;
   if (result == VK_SUCCESS) {

@@ -75,6 +75,11 @@ void View::drawHair(VkCommandBuffer cmd, const Frame& frame, uint32_t index) {
   const Functions& fn = context_.device.fn;
   const VkPipelineLayout layout = context_.pipelines.layout;
   const Hair& hair = *frame.hairs[index];
+  if (!hair.uploaded) {  // its buffers hold anything: indices read from them could point anywhere
+    context_.device.messages.say(FLK_SEVERITY_WARNING, "HAIR_NOT_UPLOADED", "hair %u of frame %llu is left out: record flkCmdUpload first", index,
+                                 static_cast<unsigned long long>(frame.number));
+    return;
+  }
   fn.vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1, &hair.set, 0, nullptr);
   fn.vkCmdPushConstants(cmd, layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof index, &index);
   for (uint32_t first = 0; first < hair.segment_count; first += kSegmentsPerDraw) {

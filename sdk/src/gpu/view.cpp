@@ -1,6 +1,7 @@
 #include "gpu/view.h"
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 
 namespace forelock {
@@ -57,6 +58,7 @@ void View::readStatistics(const Frame& frame) {
   latest_.fragments_lost = count > frame.plan.node_capacity ? count - frame.plan.node_capacity : 0;
   pool_.last_count = count;
   pool_.last_estimate = std::max<uint64_t>(frame.plan.estimate, 1);
+  pool_.counted = true;
   if (!frame.plan.timestamps || !queries_) return;
   uint64_t ticks[kTimestamps] = {};
   if (device.fn.vkGetQueryPoolResults(device.device, queries_, frame.slot * kTimestamps, kTimestamps, sizeof ticks, ticks, sizeof ticks[0],
@@ -125,6 +127,8 @@ FlkResult View::ensureRing(bool timestamps) {
   if (!read_back_.size) {
     const FlkResult result = device.createBuffer(kCountBytes * count, VK_BUFFER_USAGE_TRANSFER_DST_BIT, true, "read-back", read_back_);
     if (result != FLK_SUCCESS) return result;
+    // A frame that was recorded and never submitted reads as one that counted nothing.
+    if (!device.planning()) std::memset(read_back_.memory.mapped, 0, kCountBytes * count);
   }
   if (device.planning()) return FLK_SUCCESS;
   if (!set_pool_) {
@@ -151,7 +155,7 @@ FlkResult View::ensureRing(bool timestamps) {
 }
 
 // A set that still names an image which this frame does without is exchanged for a fresh one: the image may be gone, and
-// lavapipe (Mesa 22.3.6) reads every descriptor of a bound set, also those that no shader uses.
+// lavapipe (Mesa 22.3.6) reads every descriptor of a bound set, also those that no shader uses. To be removed with that Mesa.
 FlkResult View::ensureSet(Frame& frame, const FramePlan& plan) {
   Device& device = context_.device;
   if (device.planning()) return FLK_SUCCESS;
@@ -251,6 +255,14 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   // A speck may be estimated at no fragment; while it is in view there is room for some.
   pool.capacity = choosePoolCapacity(pool, std::max<uint64_t>(estimateFragments(facts), 1), nodeLimit());
   const FramePlan plan = planFrame(facts, pool.capacity);
+  const VkPhysicalDeviceLimits& limits = context_.device.limits;
+  if (!context_.device.planning() && (asked.target.width > std::min(limits.maxFramebufferWidth, limits.maxViewportDimensions[0]) ||
+                                      asked.target.height > std::min(limits.maxFramebufferHeight, limits.maxViewportDimensions[1]) ||
+                                      plan.shadow_size > std::min(limits.maxImageDimension2D, limits.maxFramebufferWidth))) {
+    messages.say(FLK_SEVERITY_ERROR, "DEVICE_LIMIT", "a target of %u x %u or a shadow map of %u exceeds what the device can draw to", asked.target.width,
+                 asked.target.height, plan.shadow_size);
+    return FLK_ERROR_LIMIT;
+  }
   if (plan.bytes(ResourceId::heads) > context_.device.limits.maxStorageBufferRange) {
     messages.say(FLK_SEVERITY_ERROR, "HEADS_TOO_LARGE", "hair covers %u x %u pixels, whose list heads need %llu bytes, and the device binds at most %u: draw fewer pixels",
                  plan.rect.width, plan.rect.height, static_cast<unsigned long long>(plan.bytes(ResourceId::heads)), context_.device.limits.maxStorageBufferRange);

@@ -4,6 +4,12 @@
 #include <limits>
 
 namespace forelock {
+namespace {
+
+// A mitre of slope 2 ends sqrt(5) (h + E) from its joint, E <= sqrt(1/2) pixel; one more for rounding.
+constexpr double kMarginPixels = 3;
+
+}  // namespace
 
 double Camera::pixelsPerMetre(double view_depth) const {
   const double w = orthographic ? 1.0 : std::max(view_depth, near_plane);
@@ -61,7 +67,8 @@ Rect screenRect(const Camera& camera, const Mat4& world_from_box, const Box& box
                                          corner & 4 ? box.max[2] : box.min[2]});
     const double d = -p[2];
     nearest = std::min(nearest, d - margin), farthest = std::max(farthest, d + margin);
-    const double w = camera.orthographic ? 1.0 : std::max(d - margin, camera.near_plane);
+    // Quads stand in the view plane at the depth of their axis; what is nearer than the margin gets the whole target below.
+    const double w = camera.orthographic ? 1.0 : std::max(d, camera.near_plane);
     for (int axis = 0; axis < 2; ++axis) {
       const double size = axis ? camera.height : camera.width;
       for (double sign : {-1.0, 1.0}) {
@@ -74,9 +81,9 @@ Rect screenRect(const Camera& camera, const Mat4& world_from_box, const Box& box
   if (farthest < camera.near_plane) return {};
   Rect rect{0, 0, camera.width, camera.height};
   if (nearest <= camera.near_plane && !camera.orthographic) return rect;  // projections of its corners do not bound it
-  // Shifted offsets of corners nearer than the margin are covered by the two pixels.
-  const double x0 = std::clamp(std::floor(low[0]) - 2, 0.0, double(camera.width)), x1 = std::clamp(std::ceil(high[0]) + 2, 0.0, double(camera.width));
-  const double y0 = std::clamp(std::floor(low[1]) - 2, 0.0, double(camera.height)), y1 = std::clamp(std::ceil(high[1]) + 2, 0.0, double(camera.height));
+  const double width = camera.width, height = camera.height;
+  const double x0 = std::clamp(std::floor(low[0]) - kMarginPixels, 0.0, width), x1 = std::clamp(std::ceil(high[0]) + kMarginPixels, 0.0, width);
+  const double y0 = std::clamp(std::floor(low[1]) - kMarginPixels, 0.0, height), y1 = std::clamp(std::ceil(high[1]) + kMarginPixels, 0.0, height);
   if (!(x1 > x0 && y1 > y0)) return {};
   rect.x = uint32_t(x0), rect.y = uint32_t(y0);
   rect.width = uint32_t(x1 - x0), rect.height = uint32_t(y1 - y0);

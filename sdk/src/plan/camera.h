@@ -33,7 +33,8 @@ struct Box {
 const char* makeCamera(const double view_from_world[16], const float clip_from_view[16], bool reversed_depth, uint32_t width,
                        uint32_t height, Camera& camera);
 
-// Pixels that a box could touch, grown by `margin` metres and two pixels; empty when out of view. `nearest` and `farthest`:
+// Pixels that quads of strands inside a box could touch, whose corners lie up to `margin` metres and some pixels beside the
+// strands; empty when out of view. `nearest` and `farthest`:
 // its view depths.
 Rect screenRect(const Camera& camera, const Mat4& world_from_box, const Box& box, double margin, double& nearest, double& farthest);
 

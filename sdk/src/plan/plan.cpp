@@ -15,6 +15,9 @@ const Method& methodOf(const FrameFacts& facts) {
   return facts.display ? kDisplayMethod : kMethods[facts.method];
 }
 
+// Corners of a strand's quads lie at most this many radii (and some pixels) from it: shaders/lib/strand_quad.glsl.
+constexpr double kMitreReach = 2.2360679774997898;  // sqrt(1 + 2^2)
+
 // Area of the quads with their margins, every strand seen from the side at the nearest depth of its hair.
 double estimateHair(const Camera& camera, const HairFacts& hair, double nearest) {
   const double scale = camera.pixelsPerMetre(nearest);
@@ -43,7 +46,7 @@ uint64_t estimateFragments(const FrameFacts& facts) {
   double sum = 0;
   for (const HairFacts& hair : facts.hairs) {
     double nearest = 0, farthest = 0;
-    const Rect rect = screenRect(facts.camera, hair.world_from_hair, hair.bounds, hair.radius, nearest, farthest);
+    const Rect rect = screenRect(facts.camera, hair.world_from_hair, hair.bounds, kMitreReach * hair.radius, nearest, farthest);
     if (!rect.empty()) sum += estimateHair(facts.camera, hair, nearest);
   }
   return uint64_t(std::min(sum, double(kMaxNodes)));
@@ -62,7 +65,7 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity) {
     const HairFacts& hair = facts.hairs[i];
     all_segments += hair.segments;
     double nearest = 0, farthest = 0;
-    const Rect rect = screenRect(facts.camera, hair.world_from_hair, hair.bounds, hair.radius, nearest, farthest);
+    const Rect rect = screenRect(facts.camera, hair.world_from_hair, hair.bounds, kMitreReach * hair.radius, nearest, farthest);
     if (rect.empty()) continue;
     plan.visible |= uint64_t(1) << i;
     plan.rect = unite(plan.rect, rect);
@@ -97,9 +100,9 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity) {
   plan.passes.add({PassId::clear, "clear", {0, 0, 0}, 0});
   if (plan.shadow_size) plan.passes.add({PassId::shadow, "shadow", {0, 0, 0}, all_segments * 6});
   plan.passes.add({PassId::capture, "capture", {0, 0, 0}, plan.segments * 6});
-  // 64 columns of bit-reversed tiles: see shaders/passes/tile_order.glsl.
+  // Columns of 128 bit-reversed tiles: see shaders/passes/tile_order.glsl.
   const uint64_t tiles = uint64_t((plan.rect.width + 7) / 8) * ((plan.rect.height + 7) / 8);
-  plan.passes.add({PassId::resolve, "resolve", {uint32_t((tiles + 63) / 64), 64, 1}, 0});
+  plan.passes.add({PassId::resolve, "resolve", {uint32_t((tiles + 127) / 128), 128, 1}, 0});
 
   plan.resources.add({ResourceId::constants, "constants", sizeof(gpu::FrameConstants), true, "camera, light and materials, for every pass"});
   plan.resources.add({ResourceId::heads, "heads", uint64_t(plan.rect.width) * plan.rect.height * 4, true, "a list head for each pixel of the hair's rectangle"});

@@ -19,7 +19,6 @@ inline constexpr uint64_t kMaxNodes = (1u << 26) - 1;
 
 struct HairFacts {
   uint64_t segments = 0;
-  uint64_t bytes_device = 0;
   Box bounds;                  // of its vertices, hair space
   Mat4 world_from_hair = kIdentity;
   double radius = 0;           // largest, metre in the world
@@ -54,7 +53,7 @@ struct Pass {
   uint64_t indices = 0;            // of a raster pass
 };
 
-enum class ResourceId : uint8_t { constants, heads, nodes, counters, read_back, shadow_map, timestamps };
+enum class ResourceId : uint8_t { constants, heads, nodes, counters, read_back, shadow_map };
 
 struct Resource {
   ResourceId id{};

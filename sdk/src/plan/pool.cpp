@@ -27,7 +27,8 @@ uint64_t choosePoolCapacity(PoolState& state, uint64_t estimate, uint64_t limit)
     return wanted;
   }
   const bool roomy = double(state.capacity) > needed * kRoomy && wanted < state.capacity;
-  state.roomy_frames = roomy ? state.roomy_frames + 1 : 0;
+  state.roomy_frames = !roomy ? 0 : state.roomy_frames + (state.counted ? 1 : 0);
+  state.counted = false;
   if (state.roomy_frames < kRoomyFrames) return std::min(state.capacity, limit);
   state.roomy_frames = 0;
   return wanted;

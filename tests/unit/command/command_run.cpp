@@ -55,8 +55,9 @@ std::string writeScratch(const std::string& name, const std::string& text) {
 }
 
 std::string smallRecipe() {
-  return writeScratch("small.json", R"({"strands": 300, "vertices": 8, "length": {"mean": 0.15}, "width": {"root": 0.001},
-    "cameras": [{"name": "side", "eye": [1, 0, 0], "target": [0, 0, 0], "vertical_fov": 30, "width": 60, "height": 40}]})");
+  return writeScratch("small.json", R"({"strands": 300, "vertices": 8, "length": {"mean": 0.15},
+    "width": {"root": 0.001}, "cameras": [{"name": "side", "eye": [1, 0, 0], "target": [0, 0, 0], "vertical_fov": 30,
+    "width": 60, "height": 40}]})");
 }
 
 }  // namespace forelock::test

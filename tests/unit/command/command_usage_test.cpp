@@ -54,7 +54,8 @@ TEST(CommandUsage, WhatIsWrongWithAnAssetIsOne) {
   expectComplaint(runCommand("plan nowhere.tfx"), 1, "nowhere.tfx: ");
   expectComplaint(runCommand("plan groom:nowhere"), 1, "groom:nowhere: no such groom");
   expectComplaint(runCommand("plan --scene nowhere.json"), 1, "nowhere.json: cannot be read");
-  const std::string scene = writeScratch("wrong.json", R"({"assets": [{"source": "a.tfx"}], "light": {"elevation": 120}})");
+  const std::string scene =
+      writeScratch("wrong.json", R"({"assets": [{"source": "a.tfx"}], "light": {"elevation": 120}})");
   expectComplaint(runCommand("plan --scene \"" + scene + "\""), 1,
                   "wrong.json: light.elevation is 120, must be a number in [-90, 90] degrees");
 }

@@ -86,13 +86,16 @@ TEST(ScreenRect, HoldsEveryPointOfTheBox) {
       EXPECT_GE(d, nearest);
       EXPECT_LE(d, farthest);
       if (d < camera.near_plane) continue;
-      const double x = (p[0] * camera.scale[0] / d * 0.5 + 0.5) * 300, y = (p[1] * camera.scale[1] / d * 0.5 + 0.5) * 200;
-      if (x < 0 || y < 0 || x >= 300 || y >= 200) continue;
-      ASSERT_FALSE(rect.empty());
-      EXPECT_GE(x, rect.x);
-      EXPECT_GE(y, rect.y);
-      EXPECT_LE(x, rect.x + rect.width);
-      EXPECT_LE(y, rect.y + rect.height);
+      for (const double beside : {-0.01, 0.0, 0.01}) {  // as far as the margin says
+        const double x = ((p[0] + beside) * camera.scale[0] / d * 0.5 + 0.5) * 300;
+        const double y = ((p[1] + beside) * camera.scale[1] / d * 0.5 + 0.5) * 200;
+        if (x < 0 || y < 0 || x >= 300 || y >= 200) continue;
+        ASSERT_FALSE(rect.empty());
+        EXPECT_GE(x, rect.x);
+        EXPECT_GE(y, rect.y);
+        EXPECT_LE(x, rect.x + rect.width);
+        EXPECT_LE(y, rect.y + rect.height);
+      }
     }
   }
 }

@@ -18,7 +18,6 @@ FrameFacts someFrame(const HairFacts& hair, const LightFacts& light) {
 HairFacts someHair() {
   HairFacts hair;
   hair.segments = 1000;
-  hair.bytes_device = 20000;
   hair.bounds = {{-0.2, -0.2, -2.2}, {0.2, 0.2, -1.8}};
   hair.radius = 1e-4;
   hair.length = 100;

@@ -19,7 +19,7 @@ TEST(PoolCapacity, SettlesWithinAQuarterAboveTheCount) {
     PoolState state;
     state.capacity = choosePoolCapacity(state, count * 5, 1u << 26);
     for (int frame = 0; frame < 6; ++frame) {
-      state.last_count = count, state.last_estimate = count * 5;
+      state.last_count = count, state.last_estimate = count * 5, state.counted = true;
       state.capacity = choosePoolCapacity(state, count * 5, 1u << 26);
       EXPECT_GE(state.capacity, count);
     }
@@ -38,7 +38,7 @@ TEST(PoolCapacity, DoesNotAllocateForASwingingCamera) {
   state.capacity = choosePoolCapacity(state, 1000000, 1u << 26);
   int changes = 0;
   for (int frame = 0; frame < 100; ++frame) {
-    state.last_count = 200000 + (frame % 2) * 20000, state.last_estimate = 1000000 + (frame % 2) * 100000;
+    state.last_count = 200000 + (frame % 2) * 20000, state.last_estimate = 1000000 + (frame % 2) * 100000, state.counted = true;
     const uint64_t next = choosePoolCapacity(state, 1000000 + ((frame + 1) % 2) * 100000, 1u << 26);
     changes += next != state.capacity;
     state.capacity = next;

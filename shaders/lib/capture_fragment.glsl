@@ -13,9 +13,9 @@ struct StrandFragment {
   vec3 tangent;    // unit, view space, or 0
 };
 
-// Coverage is 0 outside the quad.
+// Coverage is 0 outside the quad. joint: slopes of the lines that end it, share of its opacity.
 StrandFragment strandFragment(vec2 center, vec4 axis, vec4 lines, vec4 extent, vec4 depth, vec3 tangent_a, vec4 tangent_b,
-                              vec2 t, float orthographic) {
+                              vec2 t, vec3 joint, float orthographic) {
   StrandFragment f;
   vec2 n = leftNormal(t);
   float a = max(abs(n.x), abs(n.y)), b = min(abs(n.x), abs(n.y));
@@ -24,8 +24,9 @@ StrandFragment strandFragment(vec2 center, vec4 axis, vec4 lines, vec4 extent, v
   float v = clamp(y / l, 0.0, 1.0);
   float h = mix(extent.x, extent.y, v);
   float strip = boxEdge(x + h, a, b) - boxEdge(x - h, a, b);
-  float ends = boxEdge(y + extent.z, a, b) + boxEdge(l - y + extent.w, a, b);  // 1 away from root and tip
-  f.coverage = betweenLines(center, axis.xy, axis.zw, lines.xy, lines.zw) ? strip * max(ends, 0.0) : 0.0;
+  // 1 away from root and tip. The ways to them start at the lines: a mitre's point is no way past the strand's end.
+  float ends = boxEdge(y - x * joint.x + extent.z, a, b) + boxEdge(l - y - x * joint.y + extent.w, a, b);
+  f.coverage = betweenLines(center, axis.xy, axis.zw, lines.xy, lines.zw) ? joint.z * strip * max(ends, 0.0) : 0.0;
   f.width_px = 2.0 * h;
 
   float u = v;

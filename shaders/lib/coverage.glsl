@@ -18,4 +18,24 @@ float boxEdge(float t, float a, float b) {
   return t < 0.0 ? -r : r;
 }
 
+// Integral of boxEdge + 1/2 up to t.
+float boxEdgeSum(float t, float a, float b) {
+  float s = abs(t);
+  float rest = 0.5 * (a + b) - s;
+  float r = 0.0;
+  if (s <= 0.5 * (a - b)) r = (3.0 * a * a + b * b) / (24.0 * a) - 0.5 * s + s * s / (2.0 * a);
+  else if (rest > 0.0) r = rest * rest * rest / max(6.0 * a * b, 1e-30);
+  return t > 0.0 ? t + r : r;
+}
+
+// Integral of that, up to -t.
+float boxEdgeBeyond(float t, float a, float b) {
+  float s = abs(t);
+  float rest = 0.5 * (a + b) - s;
+  float r = 0.0;
+  if (s <= 0.5 * (a - b)) r = 1.0 / 48.0 - s * ((3.0 * a * a + b * b) / (24.0 * a) - s * (0.25 - s / (6.0 * a)));
+  else if (rest > 0.0) r = rest * rest * rest * rest / max(24.0 * a * b, 1e-30);
+  return t < 0.0 ? 0.5 * t * t + 1.0 / 24.0 - r : r;
+}
+
 #endif

@@ -14,6 +14,7 @@ layout(location = 3) flat out vec4 out_depth;     // depths (metre), fractions
 layout(location = 4) flat out vec4 out_tangent_a; // tangent at a, strand hash
 layout(location = 5) flat out vec4 out_tangent_b; // tangent at b, length (pixel)
 layout(location = 6) flat out vec2 out_direction; // unit, a to b
+layout(location = 7) flat out vec3 out_joint;     // slopes of those lines, share of the opacity
 
 vec3 viewPosition(uint vertex) { return frame.hairs[hair_slot].view_from_hair * vec4(positions[vertex], 1.0); }
 
@@ -106,4 +107,6 @@ void main() {
   out_tangent_a = vec4(tangent_a, float(attributeHash(wa)));
   out_tangent_b = vec4(tangent_b, segment.l);
   out_direction = segment.t;
+  out_joint = vec3(end_a.slope, end_b.slope,
+                   areaShare(segment, 0.5 * (ha + hb), end_a.slope + end_b.slope, vec2(on_a, on_b), out_extent.zw));
 }

@@ -13,6 +13,8 @@ bool behindHostDepth(float depth) {
 // The head changes only when the node has been stored: a full pool loses the new fragment and no other.
 void storeFragment(float depth, uint payload) {
   uint index = atomicAdd(fragment_count, 1u);
+  // Held far below 2^32: a count that wrapped would hand out nodes twice.
+  if (index >= FLK_COUNT_SATURATED) atomicExchange(fragment_count, FLK_COUNT_SATURATED);
   if (index >= frame.node_capacity) return;
   uvec2 pixel = uvec2(gl_FragCoord.xy) - frame.rect.xy;  // the scissor keeps it inside
   uint previous = atomicExchange(heads[pixel.y * frame.rect.z + pixel.x], hair_slot << FLK_LINK_SLOT_SHIFT | index);

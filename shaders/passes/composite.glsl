@@ -4,9 +4,11 @@
 
 void compositePixel(uvec2 pixel, vec3 color, float transmittance) {
   ivec2 p = ivec2(pixel + frame.rect.xy);
-  vec4 background = imageLoad(target, p);
+  // 65504, the largest fp16: an infinite sun behind opaque hair must not become 0 x inf, nor a sum overflow and spread in the
+  // host's filters.
+  vec4 background = clamp(imageLoad(target, p), vec4(-65504.0), vec4(65504.0));
   vec4 result = vec4(color + transmittance * background.rgb, 1.0 - transmittance + transmittance * background.a);
-  imageStore(target, p, min(result, vec4(65504.0)));  // the largest fp16: an overflow would spread in the host's filters
+  imageStore(target, p, clamp(result, vec4(-65504.0), vec4(65504.0)));
 }
 
 #endif

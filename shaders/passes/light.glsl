@@ -2,27 +2,38 @@
 #ifndef FORELOCK_PASSES_LIGHT
 #define FORELOCK_PASSES_LIGHT
 
-vec3 fragmentPosition(vec2 pixel, float depth) {
-  return unprojectPixel(pixel, depth, frame.proj_scale, frame.proj_offset, frame.orthographic, frame.size);
+// What all fragments of a pixel share: positions are a line in depth, in view space and so in the shadow map.
+struct PixelRay {
+  vec3 to_eye;         // unit
+  vec3 shadow_origin;  // of depth 0: texels and metre
+  vec3 shadow_step;    // a metre of depth
+};
+
+PixelRay pixelRay(vec2 pixel) {
+  vec3 at_one = unprojectPixel(pixel, 1.0, frame.proj_scale, frame.proj_offset, frame.orthographic, frame.size);
+  bool orthographic = frame.orthographic > 0.5;
+  vec3 origin = orthographic ? vec3(at_one.xy, 0.0) : vec3(0.0);
+  PixelRay ray;
+  ray.to_eye = orthographic ? vec3(0.0, 0.0, 1.0) : unitOrZero(-at_one);
+  ray.shadow_origin = frame.texels_from_view * vec4(origin, 1.0);
+  ray.shadow_step = mat3(frame.texels_from_view) * (at_one - origin);
+  return ray;
 }
 
-vec3 towardsEye(vec3 position) { return frame.orthographic > 0.5 ? vec3(0.0, 0.0, 1.0) : unitOrZero(-position); }
-
-vec3 radianceFull(HairConstants hair, vec3 tangent, vec2 pixel, float depth) {
-  vec3 position = fragmentPosition(pixel, depth);
+vec3 radianceFull(HairConstants hair, vec3 tangent, PixelRay ray, float depth) {
   float light = 1.0;
 #ifdef FLK_BIND_SHADOW
-  light = shadowFull(shadow_map, frame.texels_from_view * vec4(position, 1.0), int(frame.shadow_size),
+  light = shadowFull(shadow_map, ray.shadow_origin + depth * ray.shadow_step, int(frame.shadow_size),
                      shadowBias(tangent, frame.light_direction, frame.shadow_texel), frame.shadow_range,
                      hair.fibres_per_metre, hair.shadow_log2);
 #endif
-  return shadeFull(hair, tangent, frame.light_direction, towardsEye(position), light * frame.light_radiance, frame.ambient);
+  return shadeFull(hair, tangent, frame.light_direction, ray.to_eye, light * frame.light_radiance, frame.ambient);
 }
 
-vec3 radianceLow(HairConstants hair, vec3 tangent, vec2 pixel, float depth) {
+vec3 radianceLow(HairConstants hair, vec3 tangent, PixelRay ray, float depth) {
   float light = 1.0;
 #ifdef FLK_BIND_SHADOW
-  light = shadowLow(shadow_map, frame.texels_from_view * vec4(fragmentPosition(pixel, depth), 1.0), int(frame.shadow_size),
+  light = shadowLow(shadow_map, ray.shadow_origin + depth * ray.shadow_step, int(frame.shadow_size),
                     shadowBias(tangent, frame.light_direction, frame.shadow_texel), frame.shadow_range,
                     hair.fibres_per_metre, hair.shadow_log2);
 #endif

@@ -18,15 +18,15 @@ layout(constant_id = FLK_SPEC_PAYLOAD) const int kPayload = 0;
 layout(constant_id = FLK_SPEC_K) const uint kFull = 8;
 layout(constant_id = FLK_SPEC_K_SORT) const uint kSort = 8;
 
-void fragmentColor(uvec3 key, vec2 center, bool full, out vec3 color, out float alpha) {
+void fragmentColor(uvec3 key, PixelRay ray, bool full, out vec3 color, out float alpha) {
 #ifdef FLK_FORWARD
   unpackColor(key.z, frame.color_range, kPayload, color, alpha);
 #else
   vec3 tangent;
   unpackTangent(key.z, kPayload, tangent, alpha);
   float depth = uintBitsToFloat(key.x);
-  if (full) color = radianceFull(frame.hairs[key.y], tangent, center, depth);
-  else color = radianceLow(frame.hairs[key.y], tangent, center, depth);
+  if (full) color = radianceFull(frame.hairs[key.y], tangent, ray, depth);
+  else color = radianceLow(frame.hairs[key.y], tangent, ray, depth);
 #endif
 }
 
@@ -35,7 +35,7 @@ void main() {
   if (!tilePixel(frame.rect.zw, pixel)) return;
   uint link = heads[pixel.y * frame.rect.z + pixel.x];
   if (link == FLK_LINK_END) return;
-  vec2 center = vec2(pixel + frame.rect.xy) + 0.5;
+  PixelRay ray = pixelRay(vec2(pixel + frame.rect.xy) + 0.5);
   NodePool nodes = NodePool(frame.node_pool);
 
   uvec3 core[kSort];
@@ -58,7 +58,7 @@ void main() {
     if (key.x == kKeyNone.x) continue;
     vec3 color;
     float alpha;
-    fragmentColor(key, center, false, color, alpha);
+    fragmentColor(key, ray, false, color, alpha);
     tail_color = alpha * color + (1.0 - alpha) * tail_color;
     tail_transmittance *= 1.0 - alpha;
   }
@@ -69,7 +69,7 @@ void main() {
     if (core[i].x == kKeyNone.x) break;
     vec3 color;
     float alpha;
-    fragmentColor(core[i], center, i < kFull, color, alpha);
+    fragmentColor(core[i], ray, i < kFull, color, alpha);
     color_sum += transmittance * alpha * color;
     transmittance *= 1.0 - alpha;
   }

@@ -22,7 +22,7 @@ void main() {
   if (!tilePixel(frame.rect.zw, pixel)) return;
   uint head = heads[pixel.y * frame.rect.z + pixel.x];
   if (head == FLK_LINK_END) return;
-  vec2 center = vec2(pixel + frame.rect.xy) + 0.5;
+  PixelRay ray = pixelRay(vec2(pixel + frame.rect.xy) + 0.5);
   NodePool nodes = NodePool(frame.node_pool);
 
   vec3 color_sum = vec3(0.0);
@@ -64,7 +64,7 @@ void main() {
       vec3 tangent;
       float alpha;
       unpackTangent(key.z, kPayload, tangent, alpha);
-      vec3 color = radianceFull(frame.hairs[key.y], tangent, center, uintBitsToFloat(key.x));
+      vec3 color = radianceFull(frame.hairs[key.y], tangent, ray, uintBitsToFloat(key.x));
       color_sum += transmittance * alpha * color;
       transmittance *= 1.0 - alpha;
     }

@@ -40,8 +40,10 @@ void main() {
   else end_a = jointEnd(segment.a, side, ha, before, segment, false);
   if (tip || !(after.l > 0.0)) end_b = freeEnd(segment.b, side, hb, segment.t, 1.0, 0.0, true);
   else end_b = jointEnd(segment.b, side, hb, segment, after, true);
-  // The sides are tested in the fragment shader too, and drawn as much too far.
-  vec2 corner = (at_b ? end_b.corner : end_a.corner) + side * kCornerSlack * leftNormal(segment.t);
+  // The sides are tested in the fragment shader too, and drawn as much too far along the lines that end the quad.
+  vec2 corner = at_b ? end_b.corner : end_a.corner;
+  float along = at_b ? -end_b.slope : end_a.slope;
+  corner += side * kCornerSlack * (leftNormal(segment.t) + along * segment.t);
 
   gl_Position = vec4(corner / float(frame.shadow_size) * 2.0, 0.0, 1.0);
   out_axis = vec4(segment.a, segment.b);

@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 // Pixel relative to the rectangle; false outside it.
 bool tilePixel(uvec2 size, out uvec2 pixel) {
   uint tiles_x = (size.x + 7u) / 8u;
-  uint tile = gl_WorkGroupID.x * 64u + (bitfieldReverse(gl_WorkGroupID.y) >> 26);  // y in 0..63
+  uint tile = gl_WorkGroupID.x * 128u + (bitfieldReverse(gl_WorkGroupID.y) >> 25);  // y in 0..127
   uint lane = gl_LocalInvocationID.x;
   pixel = uvec2(tile % tiles_x, tile / tiles_x) * 8u + uvec2(lane & 7u, lane >> 3);
   return all(lessThan(pixel, size));

@@ -8,6 +8,7 @@
 #define FLK_LINK_INDEX_MASK 0x03FFFFFFu
 #define FLK_LINK_END 0xFFFFFFFFu
 #define FLK_MAX_HAIRS 63u
+#define FLK_COUNT_SATURATED 0xF0000000u
 
 // Specialisation constants.
 #define FLK_SPEC_PAYLOAD 0  // FLK_PAYLOAD_...

@@ -99,7 +99,8 @@ TEST_F(Recording, allPassesOfALitFrame) {
 // The mistake of a first day: its buffers hold anything, so it is left out and said.
 TEST_F(Recording, hairThatWasNotUploadedIsLeftOut) {
   forelock::Hair forgotten = scene.createHair(asset, false);
-  FlkFrame frame = scene.frame(++number, number - 1, {forgotten});
+  ++number;
+  FlkFrame frame = scene.frame(number, number - 1, {forgotten});
   ASSERT_EQ(scene.render(view, frame, &plan), FLK_SUCCESS);
   EXPECT_EQ(scene.driver.countCommands("vkCmdDrawIndexed"), 0u);
   EXPECT_EQ(scene.message_ids.back(), "HAIR_NOT_UPLOADED");

@@ -87,6 +87,42 @@ TEST(Plan, NoHairInViewMeansNoPassAndNoBytes) {
   EXPECT_EQ(scene.statistics.fragments, 0u);
 }
 
+// Split lines that cross, clamped mitres and the factor that keeps the area: tight curls and zig-zags of every width.
+TEST(Joints, TightBendsMatchTheReference) {
+  constexpr double kPi = 3.14159265358979323846, kPixel = 2 * 0.3 * 1.5 / 120;  // metre, at the target
+  for (const double width : {0.1, 1.0, 6.0}) {
+    StrandArrays strands;
+    int number = 0;
+    for (const double length : {0.1, 0.5, 2.0, 6.0})
+      for (const double bend : {10.0, 40.0, 90.0, 120.0, 150.0})
+        for (const bool to_and_fro : {false, true}) {
+          std::vector<std::array<float, 3>> points;
+          double x = 0.2 + (number % 10 - 4.5) * 0.12, y = 0.1 + (number / 10 - 1.5) * 0.18, heading = 0.7 * number;
+          for (int i = 0; i < 8; ++i) {
+            points.push_back({float(x), float(y), 0.0f});
+            x += length * kPixel * std::cos(heading), y += length * kPixel * std::sin(heading);
+            heading += (to_and_fro && i % 2 ? -bend : bend) * kPi / 180;
+          }
+          strands.add(points, float(width * kPixel / 2));
+          ++number;
+        }
+    Scene scene(strands, samples::conditionMaterial(samples::HairColor::dark), someView());
+    scene.setLight(samples::kConditionLight, 4, 0);
+    FlkFrame frame{};
+    frame.method = FLK_METHOD_EXACT;
+    const reference::Image actual = scene.toImage(scene.render(frame));
+    const reference::Image expected = reference::resolve(scene.reference_scene, scene.camera, {}, scene.gather(), {});
+    double most = 0, sum[2] = {0, 0};
+    for (std::size_t i = 0; i < actual.pixels.size(); ++i) {
+      const double a = 1 - actual.pixels[i].transmittance, e = 1 - expected.pixels[i].transmittance;
+      most = std::max(most, std::abs(a - e)), sum[0] += a, sum[1] += e;
+    }
+    std::printf("ROW joints %.1f px: opacity off by %.4f at most, sum %.3f of %.3f\n", width, most, sum[0], sum[1]);
+    EXPECT_LE(most, 0.02);
+    EXPECT_NEAR(sum[0] / sum[1], 1, 0.01);
+  }
+}
+
 // Standard and reversed depth, perspective and orthographic: the same picture as the reference, in front of and behind a wall.
 TEST(HostDepth, HidesWhatIsBehindInEveryProjection) {
   const StrandArrays strands = someStrands();

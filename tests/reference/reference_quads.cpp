@@ -4,8 +4,9 @@
 namespace forelock::reference {
 namespace {
 
-constexpr double shortest_px = 1e-6;   // methods.md section 1
-constexpr double steepest_split = 2;  // slope of a split line: a mitre of 127 degrees
+constexpr double shortest_px = 1e-6;  // methods.md section 1
+constexpr double steepest_split = 2;  // slope of a split line that a joint may always have: 127 degrees
+constexpr int share_nodes = 32;       // midpoints across a segment, beside a strand's end
 
 struct ViewVertex {
   Vec3 p;  // view space
@@ -30,13 +31,15 @@ void shapeJoint(PlaneSegment& p, PlaneSegment& n, bool flush) {
   // tan(theta / 2) = sin / (1 + cos); a full turn back has no finite mitre.
   const double mitre = along > 1e-15 ? std::fabs(turn) / along : std::numeric_limits<double>::infinity();
   const double g = turn > 0 ? 1 : turn < 0 ? -1 : 0;
-  p.tau_b = n.tau_a = g * std::min(mitre, steepest_split);
+  // Half a segment is left to each joint: split lines that stay within it never cross, however steep.
+  const double steepest = std::max(steepest_split, std::min(p.l, n.l) / (2 * std::max(reach, 1e-6)));
+  p.tau_b = n.tau_a = g * std::min(mitre, steepest);
   for (const int s : {-1, 1}) {
     const Vec2 end = p.b + (s * reach) * p.n - (s * reach * p.tau_b) * p.t;
     const Vec2 start = n.a + (s * reach) * n.n + (s * reach * n.tau_a) * n.t;
     p.corner[s > 0 ? 2 : 3] = end;
     // Not clamped they are one point; rounding must not open a gap along a row of pixel centres.
-    n.corner[s > 0 ? 1 : 0] = mitre <= steepest_split ? end : start;
+    n.corner[s > 0 ? 1 : 0] = mitre <= steepest ? end : start;
   }
 }
 
@@ -60,7 +63,7 @@ void cutCrossing(PlaneSegment& s) {
   else s.corner[0] = s.corner[3] = meeting;
 }
 
-// Mean of max(x - t, 0)^2 / 2 over the trapezoid kernel of F at t: section 2's Q.
+// Mean of max(x - t, 0)^2 / 2 over the trapezoid kernel of F at t: P2(-t) of section 2.
 double beyond(double t, double a, double b) {
   if (t < 0) return t * t / 2 + 1.0 / 24 - beyond(-t, a, b);
   const double rest = (a + b) / 2 - t;
@@ -69,15 +72,44 @@ double beyond(double t, double a, double b) {
   return 1.0 / 48 - t * (3 * a * a + b * b) / (24 * a) + t * t / 4 - t * t * t / (6 * a);
 }
 
-double shareOf(const PlaneSegment& s) {
-  const double slope = std::fabs(s.tau_a + s.tau_b), h = (s.h_a + s.h_b) / 2;
-  if (slope * (h + s.extent) <= s.l || !(h > 0)) return 1;
-  const double a = std::max(std::fabs(s.n.x), std::fabs(s.n.y)), b = std::min(std::fabs(s.n.x), std::fabs(s.n.y));
-  const double x = s.l / slope;
-  return 1 / (1 + (beyond(x - h, a, b) - beyond(x + h, a, b)) / (2 * h * x));
+// Integral of F + 1/2 up to t.
+double rampSum(double t, double a, double b) {
+  if (t > 0) return t + rampSum(-t, a, b);
+  const double rest = (a + b) / 2 + t;
+  if (rest <= 0) return 0;
+  if (-t > (a - b) / 2) return std::pow(rest, 3) / (6 * a * b);
+  return (3 * a * a + b * b) / (24 * a) + t / 2 + t * t / (2 * a);
+}
+
+// Integral of root + tip - 1 along t between the split lines where they are y apart; p, q: way to the strand's ends.
+double rampArea(const PlaneSegment& s, double y, double p, double q, double a, double b) {
+  const double whole = y + s.e_root + s.e_tip;
+  if (whole <= 0) return 0;
+  return std::max(0.0, rampSum(y + s.e_tip + p, a, b) - rampSum(p - s.e_root, a, b) +
+                           rampSum(y + s.e_root + q, a, b) - rampSum(q - s.e_tip, a, b) - whole);
 }
 
 }  // namespace
+
+double areaShare(const PlaneSegment& s, double p, double q) {
+  const double slope = std::fabs(s.tau_a + s.tau_b), h = (s.h_a + s.h_b) / 2, reach = h + s.extent;
+  if (!(slope > 0) || !(h > 0)) return 1;
+  const double a = std::max(std::fabs(s.n.x), std::fabs(s.n.y)), b = std::min(std::fabs(s.n.x), std::fabs(s.n.y));
+  if (std::min(p, q) >= s.extent) {
+    if (slope * reach <= s.l) return 1;
+    const double x = s.l / slope;
+    return 1 / (1 + (beyond(x - h, a, b) - beyond(x + h, a, b)) / (2 * h * x));
+  }
+  if (slope * reach <= s.l - s.extent) return 1;
+  double whole = 0, left = 0;
+  for (int i = 0; i < share_nodes; ++i) {
+    const double x = reach * ((2 * i + 1.0) / share_nodes - 1);
+    const double strip = pixelHalfArea(x + h, s.n.x, s.n.y) - pixelHalfArea(x - h, s.n.x, s.n.y);
+    whole += strip;
+    left += strip * rampArea(s, s.l - slope * x, p, q, a, b);
+  }
+  return left > 0 ? std::min(rampArea(s, s.l, p, q, a, b) * whole / left, 1.0) : 1;
+}
 
 bool setDirection(PlaneSegment& segment) {
   const Vec2 d = segment.b - segment.a;
@@ -109,9 +141,7 @@ void shapeStrand(std::span<PlaneSegment> segments, bool flush) {
     if (joins_after) shapeJoint(segment, segments[i + 1], flush);
   }
   for (PlaneSegment& segment : segments) {
-    if (!segment.exists) continue;
-    cutCrossing(segment);
-    if (!flush) segment.share = shareOf(segment);
+    if (segment.exists) cutCrossing(segment);
   }
 }
 
@@ -184,6 +214,11 @@ std::vector<ScreenSegment> screenSegments(const Scene& scene, const Camera& came
         if (!planes[i].exists) continue;
         ScreenSegment& segment = out.emplace_back();
         segment.plane = planes[i];
+        if (!flush) {
+          const double per_fraction = planes[i].l / (ends[i][1].fraction - ends[i][0].fraction);
+          segment.plane.share = areaShare(planes[i], ends[i][0].fraction * per_fraction,
+                                          (1 - ends[i][1].fraction) * per_fraction);
+        }
         segment.depth_a = -ends[i][0].p.z;
         segment.depth_b = -ends[i][1].p.z;
         segment.fraction_a = ends[i][0].fraction;

@@ -19,7 +19,7 @@ struct PlaneSegment {
   bool has_root = false, has_tip = false;
   double e_root = 0, e_tip = 0;        // reach of the end ramps beyond the strand
   double tau_a = 0, tau_b = 0;         // slopes of the split lines: x tau_a <= y < l - x tau_b
-  double share = 1;                    // m: what keeps the area where the split lines cross
+  double share = 1;                    // m: set by screenSegments
   Vec2 corner[4];                      // start -n, start +n, end +n, end -n; two are one where the lines cross
 };
 
@@ -27,6 +27,9 @@ struct PlaneSegment {
 bool setDirection(PlaneSegment& segment);
 // Corners and ramps of all the segments of one strand, in order. flush: E counts as 0 and ends have no ramps.
 void shapeStrand(std::span<PlaneSegment> segments, bool flush);
+
+// The factor m of section 2, which keeps a segment's area; p, q: distances to the strand's root and tip.
+double areaShare(const PlaneSegment& segment, double p, double q);
 
 // Calls visit(column, row) for each cell of [0, columns) x [row_begin, row_end) whose centre lies in the polygon:
 // left and top edges belong to it, right and bottom ones do not, so neighbours on a shared edge never share a cell.

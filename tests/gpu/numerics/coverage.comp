@@ -23,7 +23,7 @@ void main() {
     vec2 center = upright ? vec2(c, floor(p.y) + 0.5) : vec2(floor(p.x) + 0.5, c);
     StrandFragment f = strandFragment(center, vec4(a, b), vec4(0.0), vec4(h, h, length_px, length_px),
                                       vec4(1.0, 1.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), vec4(1.0, 0.0, 0.0, length_px),
-                                      t, 0.0);
+                                      t, vec3(0.0, 0.0, 1.0), 0.0);
     sum.x += f.coverage;
     for (int coding = 0; coding < 2; ++coding) {
       vec3 tangent;

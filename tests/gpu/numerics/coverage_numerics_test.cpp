@@ -1,8 +1,8 @@
 // Row G8 and the coverage of strips at every width, angle, offset and pixel aspect; depth values.
 #include "numerics_kit.h"
-#include "numerics_spv/coverage.h"
-#include "numerics_spv/depth.h"
-#include "numerics_spv/edge.h"
+#include "numerics_spv/numerics_coverage.h"
+#include "numerics_spv/numerics_depth.h"
+#include "numerics_spv/numerics_edge.h"
 
 #include <gtest/gtest.h>
 

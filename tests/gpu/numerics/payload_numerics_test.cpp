@@ -1,7 +1,7 @@
 // Row G7 and the other payload codings.
 #include "numerics_kit.h"
-#include "numerics_spv/payload.h"
-#include "numerics_spv/tangent.h"
+#include "numerics_spv/numerics_payload.h"
+#include "numerics_spv/numerics_tangent.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Rows G4 to G6: specular exponents, grazing and parallel directions, tangents that are none.
 #include "numerics_kit.h"
-#include "numerics_spv/lobe.h"
-#include "numerics_spv/shade.h"
-#include "numerics_spv/tangent.h"
+#include "numerics_spv/numerics_lobe.h"
+#include "numerics_spv/numerics_shade.h"
+#include "numerics_spv/numerics_tangent.h"
 
 #include <gtest/gtest.h>
 

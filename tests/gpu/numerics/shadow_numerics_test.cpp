@@ -1,7 +1,7 @@
 // Rows G1 to G3: attenuation of one tap, broken maps and receivers, one tap against 25.
 #include "numerics_kit.h"
-#include "numerics_spv/fibres.h"
-#include "numerics_spv/shadow.h"
+#include "numerics_spv/numerics_fibres.h"
+#include "numerics_spv/numerics_shadow.h"
 
 #include <gtest/gtest.h>
 

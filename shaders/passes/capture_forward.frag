@@ -30,6 +30,6 @@ void main() {
   float opacity = mix(hair.opacity_root, hair.opacity_tip, f.fraction);
   uint alpha = alphaCodeColor(clamp(f.coverage * opacity, 0.0, 1.0), kPayload);
   if (alpha == 0u || behindHostDepth(f.depth)) return;
-  vec3 color = radianceFull(hair, f.tangent, pixelRay(gl_FragCoord.xy), f.depth);
+  vec3 color = radianceFull(hair, frameLight(), f.tangent, pixelRay(gl_FragCoord.xy), f.depth);
   storeFragment(f.depth, packColor(color, alpha, frame.color_range, kPayload));
 }

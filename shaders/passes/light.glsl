@@ -20,24 +20,36 @@ PixelRay pixelRay(vec2 pixel) {
   return ray;
 }
 
-vec3 radianceFull(HairConstants hair, vec3 tangent, PixelRay ray, float depth) {
-  float light = 1.0;
-#ifdef FLK_BIND_SHADOW
-  light = shadowFull(shadow_map, ray.shadow_origin + depth * ray.shadow_step, int(frame.shadow_size),
-                     shadowBias(tangent, frame.light_direction, frame.shadow_texel), frame.shadow_range,
-                     hair.fibres_per_metre, hair.shadow_log2);
-#endif
-  return shadeFull(hair, tangent, frame.light_direction, ray.to_eye, light * frame.light_radiance, frame.ambient);
+// The light as read from the frame: loops over fragments read it once, before they begin.
+struct FrameLight {
+  vec3 direction, radiance, ambient;
+  float texel, range;
+  int size;
+};
+
+FrameLight frameLight() {
+  return FrameLight(frame.light_direction, frame.light_radiance, frame.ambient, frame.shadow_texel, frame.shadow_range,
+                    int(frame.shadow_size));
 }
 
-vec3 radianceLow(HairConstants hair, vec3 tangent, PixelRay ray, float depth) {
+vec3 radianceFull(HairConstants hair, FrameLight source, vec3 tangent, PixelRay ray, float depth) {
   float light = 1.0;
 #ifdef FLK_BIND_SHADOW
-  light = shadowLow(shadow_map, ray.shadow_origin + depth * ray.shadow_step, int(frame.shadow_size),
-                    shadowBias(tangent, frame.light_direction, frame.shadow_texel), frame.shadow_range,
+  light = shadowFull(shadow_map, ray.shadow_origin + depth * ray.shadow_step, source.size,
+                     shadowBias(tangent, source.direction, source.texel), source.range,
+                     hair.fibres_per_metre, hair.shadow_log2);
+#endif
+  return shadeFull(hair, tangent, source.direction, ray.to_eye, light * source.radiance, source.ambient);
+}
+
+vec3 radianceLow(HairConstants hair, FrameLight source, vec3 tangent, PixelRay ray, float depth) {
+  float light = 1.0;
+#ifdef FLK_BIND_SHADOW
+  light = shadowLow(shadow_map, ray.shadow_origin + depth * ray.shadow_step, source.size,
+                    shadowBias(tangent, source.direction, source.texel), source.range,
                     hair.fibres_per_metre, hair.shadow_log2);
 #endif
-  return shadeLow(hair, tangent, frame.light_direction, light * frame.light_radiance, frame.ambient);
+  return shadeLow(hair, tangent, source.direction, light * source.radiance, source.ambient);
 }
 
 #endif

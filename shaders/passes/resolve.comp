@@ -2,6 +2,7 @@
 // FLK_FORWARD: the lists hold colours; else tangents, shaded here, the nearest k in full.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define FLK_BIND_LISTS
 #define FLK_BIND_TARGET
 #include "bindings.glsl"
@@ -17,16 +18,20 @@
 layout(constant_id = FLK_SPEC_PAYLOAD) const int kPayload = 0;
 layout(constant_id = FLK_SPEC_K) const uint kFull = 8;
 layout(constant_id = FLK_SPEC_K_SORT) const uint kSort = 8;
+layout(constant_id = FLK_SPEC_ONE_HAIR) const bool kOneHair = false;
 
-void fragmentColor(uvec3 key, PixelRay ray, bool full, out vec3 color, out float alpha) {
+// `only`: the hair of a frame of one.
+void fragmentColor(Key key, HairConstants only, FrameLight source, PixelRay ray, bool full, out vec3 color, out float alpha) {
 #ifdef FLK_FORWARD
-  unpackColor(key.z, frame.color_range, kPayload, color, alpha);
+  unpackColor(key.payload, frame.color_range, kPayload, color, alpha);
 #else
   vec3 tangent;
-  unpackTangent(key.z, kPayload, tangent, alpha);
-  float depth = uintBitsToFloat(key.x);
-  if (full) color = radianceFull(frame.hairs[key.y], tangent, ray, depth);
-  else color = radianceLow(frame.hairs[key.y], tangent, ray, depth);
+  unpackTangent(key.payload, kPayload, tangent, alpha);
+  float depth = uintBitsToFloat(key.depth);
+  HairConstants hair = only;
+  if (!kOneHair) hair = frame.hairs[key.slot];
+  if (full) color = radianceFull(hair, source, tangent, ray, depth);
+  else color = radianceLow(hair, source, tangent, ray, depth);
 #endif
 }
 
@@ -37,39 +42,35 @@ void main() {
   if (link == FLK_LINK_END) return;
   PixelRay ray = pixelRay(vec2(pixel + frame.rect.xy) + 0.5);
   NodePool nodes = NodePool(frame.node_pool);
+  HairConstants only = frame.hairs[0];
+  FrameLight source = frameLight();
 
-  uvec3 core[kSort];
-  for (uint i = 0; i < kSort; ++i) core[i] = kKeyNone;
+  Key core[kSort];
+  for (uint i = 0; i < kSort; ++i) core[i] = keyNone();
   vec3 tail_color = vec3(0.0);
   float tail_transmittance = 1.0;
 
   while (link != FLK_LINK_END) {
     uint base = (link & FLK_LINK_INDEX_MASK) * FLK_NODE_WORDS;
-    uvec3 key = uvec3(nodes.words[base], link >> FLK_LINK_SLOT_SHIFT, nodes.words[base + 1u]);
+    Key key = Key(nodes.words[base], nodes.words[base + 1u], kOneHair ? 0u : link >> FLK_LINK_SLOT_SHIFT);
     link = nodes.words[base + 2u];
-    if (keyLess(key, core[kSort - 1u])) {
-      for (uint i = 0; i < kSort; ++i) {  // swapped through: constant indices stay in registers
-        uvec3 held = core[i];
-        bool before = keyLess(key, held);
-        core[i] = before ? key : held;
-        key = before ? held : key;
-      }
-    }
-    if (key.x == kKeyNone.x) continue;
+    if (keyLess(key, core[kSort - 1u], kOneHair))
+      for (uint i = 0; i < kSort; ++i) keySort(core[i], key, kOneHair);  // constant indices stay in registers
+    if (key.depth == kDepthNone) continue;
     vec3 color;
     float alpha;
-    fragmentColor(key, ray, false, color, alpha);
+    fragmentColor(key, only, source, ray, false, color, alpha);
     tail_color = alpha * color + (1.0 - alpha) * tail_color;
     tail_transmittance *= 1.0 - alpha;
   }
 
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;
-  for (uint i = 0; i < kSort; ++i) {
-    if (core[i].x == kKeyNone.x) break;
+  [[dont_unroll]] for (uint i = 0; i < kSort; ++i) {
+    if (core[i].depth == kDepthNone) break;
     vec3 color;
     float alpha;
-    fragmentColor(core[i], ray, i < kFull, color, alpha);
+    fragmentColor(core[i], only, source, ray, i < kFull, color, alpha);
     color_sum += transmittance * alpha * color;
     transmittance *= 1.0 - alpha;
   }

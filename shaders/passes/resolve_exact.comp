@@ -15,6 +15,7 @@
 #include "composite.glsl"
 
 layout(constant_id = FLK_SPEC_PAYLOAD) const int kPayload = 0;
+layout(constant_id = FLK_SPEC_ONE_HAIR) const bool kOneHair = false;
 const uint kBatch = 24;
 
 void main() {
@@ -24,47 +25,46 @@ void main() {
   if (head == FLK_LINK_END) return;
   PixelRay ray = pixelRay(vec2(pixel + frame.rect.xy) + 0.5);
   NodePool nodes = NodePool(frame.node_pool);
+  HairConstants only = frame.hairs[0];
+  FrameLight source = frameLight();
 
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;
-  uvec3 last = uvec3(0u);  // the farthest key blended; no key is 0, depths are positive
+  Key last = Key(0u, 0u, 0u);  // the farthest key blended; no key is 0, depths are positive
   uint last_blended = 0u;  // how many fragments of exactly that key
   bool more = true;
   while (more) {
-    uvec3 batch[kBatch];
-    for (uint i = 0; i < kBatch; ++i) batch[i] = kKeyNone;
+    Key batch[kBatch];
+    for (uint i = 0; i < kBatch; ++i) batch[i] = keyNone();
     uint farther = 0u, equal = 0u;
     for (uint link = head; link != FLK_LINK_END;) {
       uint base = (link & FLK_LINK_INDEX_MASK) * FLK_NODE_WORDS;
-      uvec3 key = uvec3(nodes.words[base], link >> FLK_LINK_SLOT_SHIFT, nodes.words[base + 1u]);
+      Key key = Key(nodes.words[base], nodes.words[base + 1u], kOneHair ? 0u : link >> FLK_LINK_SLOT_SHIFT);
       link = nodes.words[base + 2u];
-      if (key == last) ++equal;
-      if (!keyLess(last, key)) continue;
+      if (keyEqual(key, last, kOneHair)) ++equal;
+      if (!keyLess(last, key, kOneHair)) continue;
       ++farther;
-      if (!keyLess(key, batch[kBatch - 1u])) continue;
-      for (uint i = 0; i < kBatch; ++i) {
-        uvec3 held = batch[i];
-        bool before = keyLess(key, held);
-        batch[i] = before ? key : held;
-        key = before ? held : key;
-      }
+      if (!keyLess(key, batch[kBatch - 1u], kOneHair)) continue;
+      for (uint i = 0; i < kBatch; ++i) keySort(batch[i], key, kOneHair);
     }
     // Fragments equal to the last of the batch before may have fallen out of it: they come first now.
     uint again = equal - min(last_blended, equal);
     uint count = again + min(farther, kBatch);
     for (uint i = 0; i < count; ++i) {
-      uvec3 key = last;
+      Key key = last;
       if (i >= again) {
         key = batch[i - again];
-        last_blended = key == last ? last_blended + 1u : 1u;
+        last_blended = keyEqual(key, last, kOneHair) ? last_blended + 1u : 1u;
         last = key;
       } else {
         ++last_blended;
       }
       vec3 tangent;
       float alpha;
-      unpackTangent(key.z, kPayload, tangent, alpha);
-      vec3 color = radianceFull(frame.hairs[key.y], tangent, ray, uintBitsToFloat(key.x));
+      unpackTangent(key.payload, kPayload, tangent, alpha);
+      HairConstants hair = only;
+      if (!kOneHair) hair = frame.hairs[key.slot];
+      vec3 color = radianceFull(hair, source, tangent, ray, uintBitsToFloat(key.depth));
       color_sum += transmittance * alpha * color;
       transmittance *= 1.0 - alpha;
     }

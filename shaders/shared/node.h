@@ -15,6 +15,8 @@
 #define FLK_SPEC_K 1        // fragments shaded fully
 #define FLK_SPEC_K_SORT 2   // fragments sorted
 #define FLK_SPEC_DISPLAY 3  // FLK_DISPLAY_...
+#define FLK_SPEC_ONE_HAIR 4 // 1: the frame has one hair, and keys need no slot
+#define FLK_SPEC_COUNT 5
 
 // Codings, as in render.h.
 #define FLK_CODING_DEFAULT 0

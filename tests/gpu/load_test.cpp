@@ -72,8 +72,8 @@ TEST(PaperLoad, CoreTailAgainstForward) {
   frame.timestamps = 1;
   std::vector<double> ratios;
   reference::Image core_tail, forward;
-  double stage[2][FLK_STAGE_COUNT] = {}, least[2] = {1e30, 1e30};
-  for (int pair = 0; pair < 4; ++pair) {
+  double stage[2][FLK_STAGE_COUNT] = {};
+  for (int pair = 0; pair < 6; ++pair) {
     double total[2] = {};
     for (int which = 0; which < 2; ++which) {
       frame.method = which ? FLK_METHOD_CORE_TAIL : FLK_METHOD_FORWARD;
@@ -81,9 +81,7 @@ TEST(PaperLoad, CoreTailAgainstForward) {
       for (int s = 0; s < FLK_STAGE_COUNT; ++s) total[which] += std::max(scene.statistics.milliseconds[s], 0.0), stage[which][s] = scene.statistics.milliseconds[s];
       (which ? core_tail : forward) = scene.toImage(image);
     }
-    if (pair == 0) continue;  // the first compiles
-    ratios.push_back(total[0] / total[1]);
-    for (int which = 0; which < 2; ++which) least[which] = std::min(least[which], total[which]);
+    if (pair > 0) ratios.push_back(total[0] / total[1]);  // the first compiles
   }
   std::sort(ratios.begin(), ratios.end());
   frame.method = FLK_METHOD_EXACT;
@@ -92,12 +90,11 @@ TEST(PaperLoad, CoreTailAgainstForward) {
   std::printf("ROW 198k core_tail k 8 against R_forward: rmse %.2f; against R_exact %.2f; forward against R_forward %.3f; exact against R_exact %.3f p99.9 %.3f\n",
               d.rmse, reference::compare(core_tail, exact_reference).rmse, reference::compare(forward, forward_reference).rmse,
               reference::compare(exact, exact_reference).rmse, reference::compare(exact, exact_reference).p999);
-  // Other load only ever adds time: the least of each method is what it costs.
-  std::printf("ROW 198k forward / core_tail time: %.2f (pairs %.2f %.2f %.2f)\n", least[0] / least[1], ratios[0], ratios[1], ratios[2]);
+  std::printf("ROW 198k forward / core_tail time: %.2f, median of 5 pairs from %.2f to %.2f\n", ratios[2], ratios[0], ratios[4]);
   for (int which = 0; which < 2; ++which)
     std::printf("ROW 198k %s ms: clear %.1f shadow %.1f capture %.1f resolve %.1f\n", which ? "core_tail" : "forward", stage[which][0], stage[which][1], stage[which][2], stage[which][3]);
   EXPECT_LE(d.rmse, 9);
-  EXPECT_GE(least[0] / least[1], 1.75);
+  EXPECT_GE(ratios[2], 1.75);
   EXPECT_LE(reference::compare(exact, exact_reference).rmse, 1.0);
 
   FlkPlanInfo info{};

@@ -261,5 +261,41 @@ TEST(Pool, TooSmallIsCountedExactly) {
   flkViewDestroy(small);
 }
 
+// What the device draws of one strand and of a crossing pair, against supersampled geometry, at the condition's opacity.
+// 1/255 and 2/255 are the bounds; the model itself takes up to 0.7 and 1.9 of them (tests/unit/reference).
+TEST(Strands, OpacityMatchesSupersampling) {
+  for (const double width : {0.02, 0.1, 0.3, 1.0, 5.0, 20.0}) {
+    double worst[2] = {0, 0};
+    for (int heading = 0; heading < 7; ++heading)
+      for (const bool pair : {false, true}) {
+        const double angle = 0.05 + heading * 0.43, pixel = 2.0 / 128;  // an orthographic view of 2 m over 128 pixels
+        StrandArrays strands;
+        for (int i = 0; i <= int(pair); ++i) {
+          const double a = angle + i * (0.4 + 0.15 * heading), x = 0.37 * pixel * i, y = 0.21 * pixel;
+          const float dx = float(0.7 * std::cos(a)), dy = float(0.7 * std::sin(a));
+          strands.add({{float(x) - dx, float(y) - dy, 0}, {float(x), float(y), 0}, {float(x) + dx, float(y) + dy, 0}}, float(width / 2 * pixel));
+        }
+        ViewSpec view;
+        view.width = view.height = 128;
+        view.eye = {0, 0, 2};
+        view.projection.orthographic = true;
+        view.projection.tan_half_y = 1;
+        Scene scene(strands, samples::conditionMaterial(samples::HairColor::dark), view);
+        const std::vector<float> image = scene.render();
+        const std::vector<double> truth = reference::renderCover(scene.reference_scene, scene.camera, 64);
+        double squares = 0, pixels = 0;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+          const double alpha = double(image[i * 4 + 3]);
+          if (alpha == 0 && truth[i] == 0) continue;
+          squares += std::pow(255 * (alpha - truth[i]), 2), pixels += 1;
+        }
+        worst[pair] = std::max(worst[pair], std::sqrt(squares / pixels));
+      }
+    std::printf("ROW drawn opacity against R_cover, %.2f px: one strand %.2f / 255, crossing pair %.2f / 255\n", width, worst[0], worst[1]);
+    EXPECT_LE(worst[0], 1.0) << width;
+    EXPECT_LE(worst[1], 2.0) << width;
+  }
+}
+
 }  // namespace
 }  // namespace forelock::test

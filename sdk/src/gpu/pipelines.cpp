@@ -151,9 +151,9 @@ FlkResult Pipelines::get(Device& device, const Recipe& recipe, VkPipeline& pipel
     if (entry.recipe == recipe) return pipeline = entry.pipeline, FLK_SUCCESS;
   cache_.reserve(cache_.size() + 1);  // before there is a pipeline to lose
 
-  VkSpecializationMapEntry entries[4];
-  for (uint32_t i = 0; i < 4; ++i) entries[i] = {i, uint32_t(i * sizeof(uint32_t)), sizeof(uint32_t)};
-  const VkSpecializationInfo constants{4, entries, sizeof recipe.constants, recipe.constants};
+  VkSpecializationMapEntry entries[FLK_SPEC_COUNT];
+  for (uint32_t i = 0; i < FLK_SPEC_COUNT; ++i) entries[i] = {i, uint32_t(i * sizeof(uint32_t)), sizeof(uint32_t)};
+  const VkSpecializationInfo constants{FLK_SPEC_COUNT, entries, sizeof recipe.constants, recipe.constants};
   VkShaderModule vertex = VK_NULL_HANDLE, main = VK_NULL_HANDLE;
   VkResult result = createShader(device, recipe.main, main);
   if (result != VK_SUCCESS) main = VK_NULL_HANDLE;

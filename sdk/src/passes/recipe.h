@@ -2,6 +2,7 @@
 #pragma once
 
 #include "plan/plan.h"
+#include "shared/node.h"
 
 #include <cstdint>
 
@@ -33,7 +34,7 @@ struct Recipe {
   ShaderId vertex = ShaderId::none;    // none: a compute pass
   ShaderId main = ShaderId::none;      // fragment or compute
   bool depth_attachment = false;       // D32_SFLOAT, less, written
-  uint32_t constants[4] = {0, 0, 0, 0};// by FLK_SPEC_...; 0 where the shader has no such constant
+  uint32_t constants[FLK_SPEC_COUNT] = {};  // by FLK_SPEC_...; 0 where the shader has no such constant
   bool operator==(const Recipe&) const = default;
 };
 

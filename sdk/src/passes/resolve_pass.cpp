@@ -1,7 +1,5 @@
 #include "passes/recipe.h"
 
-#include "shared/node.h"
-
 namespace forelock {
 
 Recipe resolveRecipe(const FramePlan& plan) {
@@ -15,6 +13,7 @@ Recipe resolveRecipe(const FramePlan& plan) {
   }
   // A constant that the method does not read stays 0, so that its value makes no second pipeline.
   if (plan.method->resolve != ResolveKind::layers) recipe.constants[FLK_SPEC_PAYLOAD] = plan.payload;
+  if (plan.method->resolve != ResolveKind::layers) recipe.constants[FLK_SPEC_ONE_HAIR] = plan.one_hair;
   if (plan.method->shades_front) recipe.constants[FLK_SPEC_K] = plan.k;
   if (plan.method->sorts_front_only) recipe.constants[FLK_SPEC_K_SORT] = plan.k_sort;
   return recipe;

@@ -81,6 +81,7 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity) {
   }
   plan.estimate = estimateFragments(facts);
   plan.node_capacity = node_capacity;
+  plan.one_hair = facts.hairs.size() == 1;
   plan.has_depth = facts.has_depth;
   plan.timestamps = facts.timestamps;
 

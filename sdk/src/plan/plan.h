@@ -84,6 +84,7 @@ struct FramePlan {
   uint64_t node_capacity = 0;
   uint32_t shadow_size = 0;  // 0: no shadow pass
   uint32_t k = 0, k_sort = 0, payload = 0, display = 0;
+  bool one_hair = false;     // fragments need no slot to be told apart
   bool has_depth = false;
   bool timestamps = false;
 

@@ -10,21 +10,25 @@
 namespace forelock::samples {
 namespace {
 
-#define HOST_INSTANCE_FUNCTIONS(X)                                                                                     \
-  X(vkDestroyInstance) X(vkEnumeratePhysicalDevices) X(vkGetPhysicalDeviceProperties2) X(vkGetPhysicalDeviceFeatures2) \
-  X(vkGetPhysicalDeviceQueueFamilyProperties) X(vkGetPhysicalDeviceMemoryProperties) X(vkCreateDevice) X(vkGetDeviceProcAddr)
+#define HOST_INSTANCE_FUNCTIONS(X)                                                                         \
+  X(vkDestroyInstance)                                                                                     \
+  X(vkEnumeratePhysicalDevices) X(vkGetPhysicalDeviceProperties2) X(vkGetPhysicalDeviceFeatures2)          \
+      X(vkGetPhysicalDeviceQueueFamilyProperties) X(vkGetPhysicalDeviceMemoryProperties) X(vkCreateDevice) \
+          X(vkGetDeviceProcAddr)
 #define HOST_DEVICE_FUNCTIONS(X)                                                                                       \
-  X(vkDestroyDevice) X(vkGetDeviceQueue) X(vkCreateCommandPool) X(vkDestroyCommandPool) X(vkAllocateCommandBuffers)    \
-  X(vkBeginCommandBuffer) X(vkEndCommandBuffer) X(vkResetCommandPool) X(vkQueueSubmit2) X(vkCreateFence)               \
-  X(vkDestroyFence) X(vkWaitForFences) X(vkResetFences) X(vkDeviceWaitIdle) X(vkCreateImage) X(vkDestroyImage)         \
-  X(vkCreateImageView) X(vkDestroyImageView) X(vkGetImageMemoryRequirements) X(vkBindImageMemory) X(vkCreateBuffer)    \
-  X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) X(vkAllocateMemory) X(vkFreeMemory)        \
-  X(vkMapMemory) X(vkCmdPipelineBarrier2) X(vkCmdCopyBufferToImage) X(vkCmdCopyImageToBuffer) X(vkCmdClearColorImage)
+  X(vkDestroyDevice)                                                                                                   \
+  X(vkGetDeviceQueue) X(vkCreateCommandPool) X(vkDestroyCommandPool) X(vkAllocateCommandBuffers)                       \
+      X(vkBeginCommandBuffer) X(vkEndCommandBuffer) X(vkResetCommandPool) X(vkQueueSubmit2) X(vkCreateFence)           \
+          X(vkDestroyFence) X(vkWaitForFences) X(vkResetFences) X(vkDeviceWaitIdle) X(vkCreateImage) X(vkDestroyImage) \
+              X(vkCreateImageView) X(vkDestroyImageView) X(vkGetImageMemoryRequirements) X(vkBindImageMemory)          \
+                  X(vkCreateBuffer) X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory)          \
+                      X(vkAllocateMemory) X(vkFreeMemory) X(vkMapMemory) X(vkCmdPipelineBarrier2)                      \
+                          X(vkCmdCopyBufferToImage) X(vkCmdCopyImageToBuffer) X(vkCmdClearColorImage)
 
 struct Functions {
 #define HOST_DECLARE(name) PFN_##name name = nullptr;
   HOST_INSTANCE_FUNCTIONS(HOST_DECLARE)
-  HOST_DEVICE_FUNCTIONS(HOST_DECLARE)
+    HOST_DEVICE_FUNCTIONS(HOST_DECLARE)
 #undef HOST_DECLARE
 };
 
@@ -147,7 +151,8 @@ bool HeadlessHost::Impl::createInstance(bool with_validation, std::string& error
   VkDebugUtilsMessengerCreateInfoEXT debug{};
   debug.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
   debug.pNext = &features;
-  debug.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  debug.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   debug.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
   debug.pfnUserCallback = onValidation;
   debug.pUserData = &validation;
@@ -161,17 +166,22 @@ bool HeadlessHost::Impl::createInstance(bool with_validation, std::string& error
     info.ppEnabledExtensionNames = &extension;
   }
   if (create(&info, nullptr, &instance) != VK_SUCCESS)
-    return error = with_validation ? "no Vulkan instance with validation layers: install vulkan-validationlayers" : "no Vulkan instance: is a driver installed?", false;
+    return error = with_validation ? "no Vulkan instance with validation layers: install vulkan-validationlayers"
+                                   : "no Vulkan instance: is a driver installed?",
+           false;
 #define HOST_LOAD(name) fn.name = reinterpret_cast<PFN_##name>(get_instance_proc_addr(instance, #name));
   HOST_INSTANCE_FUNCTIONS(HOST_LOAD)
 #undef HOST_LOAD
-  if (with_validation) {
-    debug.pNext = nullptr;
-    const auto create_messenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(get_instance_proc_addr(instance, "vkCreateDebugUtilsMessengerEXT"));
-    destroy_messenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(get_instance_proc_addr(instance, "vkDestroyDebugUtilsMessengerEXT"));
-    if (!create_messenger || create_messenger(instance, &debug, nullptr, &messenger) != VK_SUCCESS) return error = "no debug messenger", false;
-  }
-  return true;
+    if (with_validation) {
+      debug.pNext = nullptr;
+      const auto create_messenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+          get_instance_proc_addr(instance, "vkCreateDebugUtilsMessengerEXT"));
+      destroy_messenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+          get_instance_proc_addr(instance, "vkDestroyDebugUtilsMessengerEXT"));
+      if (!create_messenger || create_messenger(instance, &debug, nullptr, &messenger) != VK_SUCCESS)
+        return error = "no debug messenger", false;
+    }
+    return true;
 }
 
 bool HeadlessHost::Impl::createDevice(const std::string& wanted, std::string& error) {
@@ -211,7 +221,10 @@ bool HeadlessHost::Impl::createDevice(const std::string& wanted, std::string& er
       break;
     }
   }
-  if (!physical_device) return error = "no Vulkan 1.3 device" + (wanted.empty() ? std::string() : " named " + wanted) + "; found: " + (found.empty() ? "none" : found), false;
+  if (!physical_device)
+    return error = "no Vulkan 1.3 device" + (wanted.empty() ? std::string() : " named " + wanted) +
+                   "; found: " + (found.empty() ? "none" : found),
+           false;
 
   const float priority = 1;
   VkDeviceQueueCreateInfo queue_info{};
@@ -226,36 +239,40 @@ bool HeadlessHost::Impl::createDevice(const std::string& wanted, std::string& er
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue_info;
   info.pEnabledFeatures = &need.features;
-  if (fn.vkCreateDevice(physical_device, &info, nullptr, &device) != VK_SUCCESS) return error = device_name + " lacks a feature that Forelock needs", false;
+  if (fn.vkCreateDevice(physical_device, &info, nullptr, &device) != VK_SUCCESS)
+    return error = device_name + " lacks a feature that Forelock needs", false;
 #define HOST_LOAD(name) fn.name = reinterpret_cast<PFN_##name>(fn.vkGetDeviceProcAddr(device, #name));
   HOST_DEVICE_FUNCTIONS(HOST_LOAD)
 #undef HOST_LOAD
-  fn.vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
-  fn.vkGetDeviceQueue(device, family, 0, &queue);
-  VkCommandPoolCreateInfo pool_info{};
-  pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-  pool_info.queueFamilyIndex = family;
-  VkFenceCreateInfo fence_info{};
-  fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-  VkCommandBufferAllocateInfo allocate{};
-  allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-  allocate.commandBufferCount = 1;
-  if (fn.vkCreateCommandPool(device, &pool_info, nullptr, &pool) != VK_SUCCESS || fn.vkCreateFence(device, &fence_info, nullptr, &fence) != VK_SUCCESS)
-    return error = "no memory for a command pool", false;
-  allocate.commandPool = pool;
-  if (fn.vkAllocateCommandBuffers(device, &allocate, &cmd) != VK_SUCCESS) return error = "no memory for a command buffer", false;
+    fn.vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
+    fn.vkGetDeviceQueue(device, family, 0, &queue);
+    VkCommandPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool_info.queueFamilyIndex = family;
+    VkFenceCreateInfo fence_info{};
+    fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    VkCommandBufferAllocateInfo allocate{};
+    allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocate.commandBufferCount = 1;
+    if (fn.vkCreateCommandPool(device, &pool_info, nullptr, &pool) != VK_SUCCESS ||
+        fn.vkCreateFence(device, &fence_info, nullptr, &fence) != VK_SUCCESS)
+      return error = "no memory for a command pool", false;
+    allocate.commandPool = pool;
+    if (fn.vkAllocateCommandBuffers(device, &allocate, &cmd) != VK_SUCCESS)
+      return error = "no memory for a command buffer", false;
 
-  FlkContextDesc desc{};
-  desc.type = FLK_TYPE_CONTEXT;
-  desc.instance = instance;
-  desc.physical_device = physical_device;
-  desc.device = device;
-  desc.get_instance_proc_addr = get_instance_proc_addr;
-  desc.queue_family = family;
-  desc.message = onMessage;
-  desc.message_user = &messages;
-  if (flkContextCreate(&desc, &context) != FLK_SUCCESS) return error = messages.empty() ? "flkContextCreate failed" : messages.back(), false;
-  return true;
+    FlkContextDesc desc{};
+    desc.type = FLK_TYPE_CONTEXT;
+    desc.instance = instance;
+    desc.physical_device = physical_device;
+    desc.device = device;
+    desc.get_instance_proc_addr = get_instance_proc_addr;
+    desc.queue_family = family;
+    desc.message = onMessage;
+    desc.message_user = &messages;
+    if (flkContextCreate(&desc, &context) != FLK_SUCCESS)
+      return error = messages.empty() ? "flkContextCreate failed" : messages.back(), false;
+    return true;
 }
 
 void HeadlessHost::Impl::destroy() {
@@ -264,7 +281,8 @@ void HeadlessHost::Impl::destroy() {
     flkContextDestroy(context);
     destroyImage(color);
     destroyImage(depth);
-    if (transfer.buffer) fn.vkDestroyBuffer(device, transfer.buffer, nullptr), fn.vkFreeMemory(device, transfer.memory, nullptr);
+    if (transfer.buffer)
+      fn.vkDestroyBuffer(device, transfer.buffer, nullptr), fn.vkFreeMemory(device, transfer.memory, nullptr);
     if (fence) fn.vkDestroyFence(device, fence, nullptr);
     if (pool) fn.vkDestroyCommandPool(device, pool, nullptr);
     fn.vkDestroyDevice(device, nullptr);
@@ -280,7 +298,8 @@ uint32_t HeadlessHost::Impl::memoryType(uint32_t bits, VkMemoryPropertyFlags fla
   return 0;
 }
 
-bool HeadlessHost::Impl::createImage(VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect, HostImage& image) {
+bool HeadlessHost::Impl::createImage(VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect,
+                                     HostImage& image) {
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.imageType = VK_IMAGE_TYPE_2D;
@@ -303,7 +322,8 @@ bool HeadlessHost::Impl::createImage(VkFormat format, VkImageUsageFlags usage, V
   view.viewType = VK_IMAGE_VIEW_TYPE_2D;
   view.format = format;
   view.subresourceRange = {aspect, 0, 1, 0, 1};
-  return fn.vkBindImageMemory(device, image.image, image.memory, 0) == VK_SUCCESS && fn.vkCreateImageView(device, &view, nullptr, &image.view) == VK_SUCCESS;
+  return fn.vkBindImageMemory(device, image.image, image.memory, 0) == VK_SUCCESS &&
+         fn.vkCreateImageView(device, &view, nullptr, &image.view) == VK_SUCCESS;
 }
 
 void HeadlessHost::Impl::destroyImage(HostImage& image) {
@@ -315,7 +335,8 @@ void HeadlessHost::Impl::destroyImage(HostImage& image) {
 
 bool HeadlessHost::Impl::ensureTransfer(VkDeviceSize size) {
   if (transfer.size >= size) return true;
-  if (transfer.buffer) fn.vkDestroyBuffer(device, transfer.buffer, nullptr), fn.vkFreeMemory(device, transfer.memory, nullptr);
+  if (transfer.buffer)
+    fn.vkDestroyBuffer(device, transfer.buffer, nullptr), fn.vkFreeMemory(device, transfer.memory, nullptr);
   transfer = {};
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -327,7 +348,8 @@ bool HeadlessHost::Impl::ensureTransfer(VkDeviceSize size) {
   VkMemoryAllocateInfo allocate{};
   allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
   allocate.allocationSize = requirements.size;
-  allocate.memoryTypeIndex = memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+  allocate.memoryTypeIndex = memoryType(requirements.memoryTypeBits,
+                                        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
   if (fn.vkAllocateMemory(device, &allocate, nullptr, &transfer.memory) != VK_SUCCESS) return false;
   transfer.size = size;
   return fn.vkBindBufferMemory(device, transfer.buffer, transfer.memory, 0) == VK_SUCCESS &&
@@ -335,7 +357,8 @@ bool HeadlessHost::Impl::ensureTransfer(VkDeviceSize size) {
 }
 
 // Everything before, everything after: a test host may wait.
-void HeadlessHost::Impl::transition(VkImage image, const VkImageSubresourceRange& range, VkImageLayout from, VkImageLayout to) const {
+void HeadlessHost::Impl::transition(VkImage image, const VkImageSubresourceRange& range, VkImageLayout from,
+                                    VkImageLayout to) const {
   VkImageMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
   barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -353,7 +376,8 @@ void HeadlessHost::Impl::transition(VkImage image, const VkImageSubresourceRange
   fn.vkCmdPipelineBarrier2(cmd, &info);
 }
 
-void HeadlessHost::Impl::uploadImage(const HostImage& image, const VkImageSubresourceRange& range, VkImageLayout to) const {
+void HeadlessHost::Impl::uploadImage(const HostImage& image, const VkImageSubresourceRange& range,
+                                     VkImageLayout to) const {
   transition(image.image, range, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   VkBufferImageCopy region{};
   region.imageSubresource = {range.aspectMask, 0, 0, 1};
@@ -367,7 +391,8 @@ HeadlessHost::~HeadlessHost() = default;
 
 std::unique_ptr<HeadlessHost> HeadlessHost::create(const HeadlessOptions& options, std::string& error) {
   std::unique_ptr<HeadlessHost> host(new HeadlessHost);
-  if (!host->impl_->createInstance(options.validation, error) || !host->impl_->createDevice(options.device_name, error)) return nullptr;
+  if (!host->impl_->createInstance(options.validation, error) || !host->impl_->createDevice(options.device_name, error))
+    return nullptr;
   return host;
 }
 
@@ -386,9 +411,11 @@ bool HeadlessHost::resize(uint32_t width, uint32_t height) {
   i.width = width, i.height = height;
   i.background.clear();
   i.depth_values.clear();
-  return i.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+  return i.createImage(VK_FORMAT_R16G16B16A16_SFLOAT,
+                       VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                        VK_IMAGE_ASPECT_COLOR_BIT, i.color) &&
-         i.createImage(VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, i.depth);
+         i.createImage(VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                       VK_IMAGE_ASPECT_DEPTH_BIT, i.depth);
 }
 
 void HeadlessHost::setBackground(std::vector<float> rgba) { impl_->background = std::move(rgba); }
@@ -403,7 +430,9 @@ bool HeadlessHost::submit(const std::function<void(VkCommandBuffer)>& record) {
   VkCommandBufferBeginInfo begin{};
   begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  if (i.fn.vkResetCommandPool(i.device, i.pool, 0) != VK_SUCCESS || i.fn.vkBeginCommandBuffer(i.cmd, &begin) != VK_SUCCESS) return false;
+  if (i.fn.vkResetCommandPool(i.device, i.pool, 0) != VK_SUCCESS ||
+      i.fn.vkBeginCommandBuffer(i.cmd, &begin) != VK_SUCCESS)
+    return false;
   record(i.cmd);
   VkCommandBufferSubmitInfo buffer{};
   buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
@@ -412,8 +441,10 @@ bool HeadlessHost::submit(const std::function<void(VkCommandBuffer)>& record) {
   info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
   info.commandBufferInfoCount = 1;
   info.pCommandBufferInfos = &buffer;
-  return i.fn.vkEndCommandBuffer(i.cmd) == VK_SUCCESS && i.fn.vkQueueSubmit2(i.queue, 1, &info, i.fence) == VK_SUCCESS &&
-         i.fn.vkWaitForFences(i.device, 1, &i.fence, VK_TRUE, UINT64_MAX) == VK_SUCCESS && i.fn.vkResetFences(i.device, 1, &i.fence) == VK_SUCCESS;
+  return i.fn.vkEndCommandBuffer(i.cmd) == VK_SUCCESS &&
+         i.fn.vkQueueSubmit2(i.queue, 1, &info, i.fence) == VK_SUCCESS &&
+         i.fn.vkWaitForFences(i.device, 1, &i.fence, VK_TRUE, UINT64_MAX) == VK_SUCCESS &&
+         i.fn.vkResetFences(i.device, 1, &i.fence) == VK_SUCCESS;
 }
 
 FlkResult HeadlessHost::createHair(const FlkHairDesc& desc, FlkHair* hair) {
@@ -429,14 +460,27 @@ FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned) 
   frame.type = FLK_TYPE_FRAME;
   frame.frame_number = i.frame + 1;
   frame.completed_frame = i.frame;
-  frame.target = {i.color.image, i.color.view, VK_FORMAT_R16G16B16A16_SFLOAT, VK_SAMPLE_COUNT_1_BIT, kColorRange, i.width, i.height,
-                  {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+  frame.target = {i.color.image,
+                  i.color.view,
+                  VK_FORMAT_R16G16B16A16_SFLOAT,
+                  VK_SAMPLE_COUNT_1_BIT,
+                  kColorRange,
+                  i.width,
+                  i.height,
+                  {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+                   VK_ACCESS_2_TRANSFER_WRITE_BIT},
                   {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT}};
   frame.depth = {};
   const bool with_depth = !i.depth_values.empty();
   if (with_depth)
-    frame.depth = {i.depth.image, i.depth.view, VK_FORMAT_D32_SFLOAT, VK_SAMPLE_COUNT_1_BIT, kDepthRange, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
-                   VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    frame.depth = {i.depth.image,
+                   i.depth.view,
+                   VK_FORMAT_D32_SFLOAT,
+                   VK_SAMPLE_COUNT_1_BIT,
+                   kDepthRange,
+                   VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
+                   VK_PIPELINE_STAGE_2_COPY_BIT,
+                   VK_ACCESS_2_TRANSFER_WRITE_BIT};
   FlkPlan plan = nullptr;
   const FlkResult result = flkPlanFrame(view, &frame, &plan);
   if (result != FLK_SUCCESS) return result;
@@ -446,7 +490,8 @@ FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned) 
   if (!i.ensureTransfer(pixels * 8)) return FLK_ERROR_OUT_OF_DEVICE_MEMORY;
   if (with_depth && i.depth_changed) {
     std::memcpy(i.transfer.mapped, i.depth_values.data(), std::min(pixels, i.depth_values.size()) * 4);
-    if (!submit([&](VkCommandBuffer) { i.uploadImage(i.depth, kDepthRange, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL); })) return FLK_ERROR_DEVICE_LOST;
+    if (!submit([&](VkCommandBuffer) { i.uploadImage(i.depth, kDepthRange, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL); }))
+      return FLK_ERROR_DEVICE_LOST;
     i.depth_changed = false;
   }
   if (!i.background.empty()) {
@@ -457,7 +502,8 @@ FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned) 
     if (i.background.empty()) {
       const VkClearColorValue transparent{};
       i.transition(i.color.image, kColorRange, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-      i.fn.vkCmdClearColorImage(cmd, i.color.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &transparent, 1, &kColorRange);
+      i.fn.vkCmdClearColorImage(cmd, i.color.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &transparent, 1,
+                                &kColorRange);
     } else {
       i.uploadImage(i.color, kColorRange, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     }
@@ -467,7 +513,9 @@ FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned) 
   return drawn ? FLK_SUCCESS : FLK_ERROR_DEVICE_LOST;
 }
 
-FlkResult HeadlessHost::statistics(FlkView view, FlkStatistics& statistics) const { return flkViewGetStatistics(view, impl_->frame, &statistics); }
+FlkResult HeadlessHost::statistics(FlkView view, FlkStatistics& statistics) const {
+  return flkViewGetStatistics(view, impl_->frame, &statistics);
+}
 
 std::vector<float> HeadlessHost::readColor() {
   Impl& i = *impl_;
@@ -478,7 +526,8 @@ std::vector<float> HeadlessHost::readColor() {
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {i.width, i.height, 1};
-    i.fn.vkCmdCopyImageToBuffer(cmd, i.color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1, &region);
+    i.fn.vkCmdCopyImageToBuffer(cmd, i.color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1,
+                                &region);
   });
   const auto* half = static_cast<const uint16_t*>(i.transfer.mapped);
   std::transform(half, half + values, rgba.begin(), halfToFloat);

@@ -17,7 +17,8 @@ TEST(Exact, TenRunsAndFivePermutationsAreBitIdentical) {
     }
     std::vector<float> first;
     for (uint32_t seed = 0; seed < 6; ++seed) {  // 0: the asset's order
-      Scene scene(strands, samples::conditionMaterial(samples::HairColor::dark), frameStrands(strands, 256, 256), seed ? 0u : uint32_t(FLK_HAIR_KEEP_ORDER), seed);
+      Scene scene(strands, samples::conditionMaterial(samples::HairColor::dark), frameStrands(strands, 256, 256),
+                  seed ? 0u : uint32_t(FLK_HAIR_KEEP_ORDER), seed);
       scene.setWidthScale(scene.widthScaleFor(0.7));
       scene.setLight(samples::kConditionLight, 3.0, 1024);
       FlkFrame frame{};

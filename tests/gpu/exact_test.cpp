@@ -39,11 +39,14 @@ TEST_P(ExactAt, MatchesReference) {
   }
   const reference::Image with_fed = scene.referenceImage({}, {fed});
   const reference::Image with_own = scene.referenceImage({}, {own});
-  const reference::Difference shading = reference::compare(actual, with_fed), whole = reference::compare(actual, with_own);
+  const reference::Difference shading = reference::compare(actual, with_fed),
+                              whole = reference::compare(actual, with_own);
   const double off_percent = 100.0 * double(off) / double(covered);
-  std::printf("ROW exact %s %s %.2f px: fed rmse %.3f p99.9 %.3f | own rmse %.3f p99.9 %.3f | map off %.3f %% | mean %.1f / %.1f | fragments %llu\n", c.name,
-              color == HairColor::dark ? "dark" : "light", width, shading.rmse, shading.p999, whole.rmse, whole.p999, off_percent,
-              shading.mean_a, shading.mean_b, static_cast<unsigned long long>(scene.statistics.fragments));
+  std::printf(
+      "ROW exact %s %s %.2f px: fed rmse %.3f p99.9 %.3f | own rmse %.3f p99.9 %.3f | map off %.3f %% | mean %.1f / "
+      "%.1f | fragments %llu\n",
+      c.name, color == HairColor::dark ? "dark" : "light", width, shading.rmse, shading.p999, whole.rmse, whole.p999,
+      off_percent, shading.mean_a, shading.mean_b, static_cast<unsigned long long>(scene.statistics.fragments));
   EXPECT_LE(shading.rmse, 0.5 * factor);
   EXPECT_LE(shading.p999, 3.0 * factor);
   EXPECT_LE(whole.rmse, 1.0 * factor);
@@ -51,7 +54,9 @@ TEST_P(ExactAt, MatchesReference) {
   if (HasFailure()) writeFailure(std::string("exact-") + c.name, actual, with_fed);
 }
 
-INSTANTIATE_TEST_SUITE_P(Views, ExactAt, testing::Combine(testing::Range(0, 3), testing::Values(0.02, 0.1, 0.3, 1.0, 5.0), testing::Values(0, 1)));
+INSTANTIATE_TEST_SUITE_P(Views, ExactAt,
+                         testing::Combine(testing::Range(0, 3), testing::Values(0.02, 0.1, 0.3, 1.0, 5.0),
+                                          testing::Values(0, 1)));
 
 }  // namespace
 }  // namespace forelock::test

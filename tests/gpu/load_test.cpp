@@ -33,7 +33,10 @@ ViewSpec storedView(const char* name) {
 }
 
 TEST(PaperLoad, FragmentsAndPixelsOfTheFourViews) {
-  const struct { const char* name; double fragments, pixels; } views[] = {{"35k", 1.05e6, 35e3}, {"78k", 1.95e6, 78e3}, {"198k", 3.96e6, 198e3}, {"365k", 6.57e6, 365e3}};
+  const struct {
+    const char* name;
+    double fragments, pixels;
+  } views[] = {{"35k", 1.05e6, 35e3}, {"78k", 1.95e6, 78e3}, {"198k", 3.96e6, 198e3}, {"365k", 6.57e6, 365e3}};
   for (const auto& v : views) {
     Scene scene(caseStrands(kAssetCases[0], false), samples::conditionMaterial(HairColor::dark), storedView(v.name));
     FlkFrame frame{};
@@ -42,8 +45,9 @@ TEST(PaperLoad, FragmentsAndPixelsOfTheFourViews) {
     double pixels = 0;
     for (std::size_t i = 3; i < image.size(); i += 4) pixels += image[i] > 0;
     const double fragments = double(scene.statistics.fragments);
-    std::printf("ROW paper-load %s: fragments %.3f M (%+.1f %%), hair pixels %.1f k (%+.1f %%), mean overdraw %.1f\n", v.name, fragments / 1e6,
-                100 * (fragments / v.fragments - 1), pixels / 1e3, 100 * (pixels / v.pixels - 1), fragments / pixels);
+    std::printf("ROW paper-load %s: fragments %.3f M (%+.1f %%), hair pixels %.1f k (%+.1f %%), mean overdraw %.1f\n",
+                v.name, fragments / 1e6, 100 * (fragments / v.fragments - 1), pixels / 1e3,
+                100 * (pixels / v.pixels - 1), fragments / pixels);
     EXPECT_NEAR(fragments / v.fragments, 1, 0.1);
     EXPECT_NEAR(pixels / v.pixels, 1, 0.1);
   }
@@ -64,9 +68,11 @@ TEST(PaperLoad, CoreTailAgainstForward) {
   scene.setLight(samples::kConditionLight, radiance, 1024);
   const std::vector<reference::ShadowMap> maps = reference::renderShadowMaps(scene.reference_scene);
   options.method = reference::Method::forward;
-  const reference::Image forward_reference = reference::resolve(scene.reference_scene, scene.camera, maps, lists, options);
+  const reference::Image forward_reference =
+      reference::resolve(scene.reference_scene, scene.camera, maps, lists, options);
   options.method = reference::Method::exact;
-  const reference::Image exact_reference = reference::resolve(scene.reference_scene, scene.camera, maps, lists, options);
+  const reference::Image exact_reference =
+      reference::resolve(scene.reference_scene, scene.camera, maps, lists, options);
 
   FlkFrame frame{};
   frame.timestamps = 1;
@@ -78,7 +84,9 @@ TEST(PaperLoad, CoreTailAgainstForward) {
     for (int which = 0; which < 2; ++which) {
       frame.method = which ? FLK_METHOD_CORE_TAIL : FLK_METHOD_FORWARD;
       const std::vector<float> image = scene.render(frame);
-      for (int s = 0; s < FLK_STAGE_COUNT; ++s) total[which] += std::max(scene.statistics.milliseconds[s], 0.0), stage[which][s] = scene.statistics.milliseconds[s];
+      for (int s = 0; s < FLK_STAGE_COUNT; ++s)
+        total[which] += std::max(scene.statistics.milliseconds[s], 0.0),
+            stage[which][s] = scene.statistics.milliseconds[s];
       (which ? core_tail : forward) = scene.toImage(image);
     }
     if (pair > 0) ratios.push_back(total[0] / total[1]);  // the first compiles
@@ -87,12 +95,16 @@ TEST(PaperLoad, CoreTailAgainstForward) {
   frame.method = FLK_METHOD_EXACT;
   const reference::Image exact = scene.toImage(scene.render(frame));
   const reference::Difference d = reference::compare(core_tail, forward_reference);
-  std::printf("ROW 198k core_tail k 8 against R_forward: rmse %.2f; against R_exact %.2f; forward against R_forward %.3f; exact against R_exact %.3f p99.9 %.3f\n",
-              d.rmse, reference::compare(core_tail, exact_reference).rmse, reference::compare(forward, forward_reference).rmse,
-              reference::compare(exact, exact_reference).rmse, reference::compare(exact, exact_reference).p999);
-  std::printf("ROW 198k forward / core_tail time: %.2f, median of 5 pairs from %.2f to %.2f\n", ratios[2], ratios[0], ratios[4]);
+  std::printf(
+      "ROW 198k core_tail k 8 against R_forward: rmse %.2f; against R_exact %.2f; forward against R_forward %.3f; "
+      "exact against R_exact %.3f p99.9 %.3f\n",
+      d.rmse, reference::compare(core_tail, exact_reference).rmse, reference::compare(forward, forward_reference).rmse,
+      reference::compare(exact, exact_reference).rmse, reference::compare(exact, exact_reference).p999);
+  std::printf("ROW 198k forward / core_tail time: %.2f, median of 5 pairs from %.2f to %.2f\n", ratios[2], ratios[0],
+              ratios[4]);
   for (int which = 0; which < 2; ++which)
-    std::printf("ROW 198k %s ms: clear %.1f shadow %.1f capture %.1f resolve %.1f\n", which ? "core_tail" : "forward", stage[which][0], stage[which][1], stage[which][2], stage[which][3]);
+    std::printf("ROW 198k %s ms: clear %.1f shadow %.1f capture %.1f resolve %.1f\n", which ? "core_tail" : "forward",
+                stage[which][0], stage[which][1], stage[which][2], stage[which][3]);
   EXPECT_LE(d.rmse, 9);
   EXPECT_GE(ratios[2], 1.75);
   EXPECT_LE(reference::compare(exact, exact_reference).rmse, 1.0);
@@ -107,7 +119,8 @@ TEST(PaperLoad, CoreTailAgainstForward) {
     if (std::string(resource.name) == "heads") heads = resource.bytes;
   }
   const double bound = 1.25 * 12 * double(scene.statistics.fragments);
-  std::printf("ROW 198k pool: nodes %.1f MB of at most %.1f MB, heads %.2f MB for %u x %u\n", double(nodes) / 1e6, bound / 1e6, double(heads) / 1e6, info.rect[2], info.rect[3]);
+  std::printf("ROW 198k pool: nodes %.1f MB of at most %.1f MB, heads %.2f MB for %u x %u\n", double(nodes) / 1e6,
+              bound / 1e6, double(heads) / 1e6, info.rect[2], info.rect[3]);
   EXPECT_LE(double(nodes), bound);
   EXPECT_EQ(heads, uint64_t(info.rect[2]) * info.rect[3] * 4);
 }
@@ -121,7 +134,8 @@ TEST(FullSize, EveryAssetAgainstItsReferences) {
     }
     const bool paper = std::string(c.name) == "paper-load";
     ViewSpec view = paper ? storedView("35k") : frameStrands(strands, 1920, 1200);
-    if (std::string(c.name) == "long-wavy") view.projection.tan_half_y = 0.75;  // close up it is 27 M fragments: minutes here
+    if (std::string(c.name) == "long-wavy")
+      view.projection.tan_half_y = 0.75;  // close up it is 27 M fragments: minutes here
     Scene scene(strands, samples::conditionMaterial(HairColor::dark), view);
     scene.setLight(samples::kConditionLight, 1.0, 1024);
     const reference::FragmentLists lists = scene.gather();
@@ -136,10 +150,15 @@ TEST(FullSize, EveryAssetAgainstItsReferences) {
     frame.method = FLK_METHOD_EXACT;
     const reference::Image actual = scene.toImage(scene.render(frame));
     const std::vector<reference::ShadowMap> fed{scene.readShadowMap()};
-    const reference::Difference shading = reference::compare(actual, reference::resolve(scene.reference_scene, scene.camera, fed, lists, options));
-    const reference::Difference whole = reference::compare(actual, reference::resolve(scene.reference_scene, scene.camera, reference::renderShadowMaps(scene.reference_scene), lists, options));
-    std::printf("ROW full size %s: fragments %.2f M, pixels %zu, exact fed rmse %.3f p99.9 %.3f | own rmse %.3f p99.9 %.3f\n", c.name,
-                double(scene.statistics.fragments) / 1e6, shading.pixels, shading.rmse, shading.p999, whole.rmse, whole.p999);
+    const reference::Difference shading =
+        reference::compare(actual, reference::resolve(scene.reference_scene, scene.camera, fed, lists, options));
+    const reference::Difference whole = reference::compare(
+        actual, reference::resolve(scene.reference_scene, scene.camera,
+                                   reference::renderShadowMaps(scene.reference_scene), lists, options));
+    std::printf(
+        "ROW full size %s: fragments %.2f M, pixels %zu, exact fed rmse %.3f p99.9 %.3f | own rmse %.3f p99.9 %.3f\n",
+        c.name, double(scene.statistics.fragments) / 1e6, shading.pixels, shading.rmse, shading.p999, whole.rmse,
+        whole.p999);
     EXPECT_LE(shading.rmse, 0.5);
     EXPECT_LE(shading.p999, 3);
     EXPECT_LE(whole.rmse, 1.0);

@@ -25,8 +25,12 @@ TEST_P(MethodAt, MatchesItsTwin) {
   scene.setLight(samples::kConditionLight, 1.0, 1024);
   scene.expose(samples::conditionMean(color));
 
-  const struct { uint32_t method; reference::Method twin; const char* name; } methods[] = {
-      {FLK_METHOD_FORWARD, reference::Method::forward, "forward"}, {FLK_METHOD_CORE_TAIL, reference::Method::core_tail, "core_tail"}};
+  const struct {
+    uint32_t method;
+    reference::Method twin;
+    const char* name;
+  } methods[] = {{FLK_METHOD_FORWARD, reference::Method::forward, "forward"},
+                 {FLK_METHOD_CORE_TAIL, reference::Method::core_tail, "core_tail"}};
   for (const auto& method : methods) {
     FlkFrame frame{};
     frame.method = method.method;
@@ -35,14 +39,16 @@ TEST_P(MethodAt, MatchesItsTwin) {
     options.method = method.twin;
     const reference::Image expected = scene.referenceImage(options, {scene.readShadowMap()});
     const reference::Difference d = reference::compare(actual, expected);
-    std::printf("ROW %s %s %s %.2f px: rmse %.3f p99.9 %.3f mean %.1f / %.1f\n", method.name, c.name, color == HairColor::dark ? "dark" : "light", width,
-                d.rmse, d.p999, d.mean_a, d.mean_b);
+    std::printf("ROW %s %s %s %.2f px: rmse %.3f p99.9 %.3f mean %.1f / %.1f\n", method.name, c.name,
+                color == HairColor::dark ? "dark" : "light", width, d.rmse, d.p999, d.mean_a, d.mean_b);
     EXPECT_LE(d.rmse, color == HairColor::light ? 3.0 : 1.5) << method.name;
     if (HasFailure()) writeFailure(std::string(method.name) + "-" + c.name, actual, expected);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Views, MethodAt, testing::Combine(testing::Range(0, 3), testing::Values(0.02, 0.1, 0.3, 1.0, 5.0), testing::Values(0, 1)));
+INSTANTIATE_TEST_SUITE_P(Views, MethodAt,
+                         testing::Combine(testing::Range(0, 3), testing::Values(0.02, 0.1, 0.3, 1.0, 5.0),
+                                          testing::Values(0, 1)));
 
 // The paper's payload drops and rounds alpha on purpose: it must still match at widths it was made for.
 TEST(PaperPayload, MatchesTheReferenceAtOnePixel) {

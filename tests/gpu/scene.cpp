@@ -86,7 +86,8 @@ ViewSpec frameStrands(const StrandArrays& strands, int width, int height) {
   ViewSpec view;
   view.width = width, view.height = height;
   view.target = {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
-  const double radius = std::sqrt(std::pow(high[0] - low[0], 2) + std::pow(high[1] - low[1], 2) + std::pow(high[2] - low[2], 2)) / 2;
+  const double radius =
+      std::sqrt(std::pow(high[0] - low[0], 2) + std::pow(high[1] - low[1], 2) + std::pow(high[2] - low[2], 2)) / 2;
   view.projection.tan_half_y = 0.3;
   const double distance = radius / 0.3;
   view.eye = {view.target.x + 0.45 * distance, view.target.y + 0.2 * distance, view.target.z + 0.87 * distance};
@@ -157,7 +158,8 @@ float Scene::widthScaleFor(double width_px) const {
   const auto& e = view_spec.eye;
   const auto& t = view_spec.target;
   const double distance = std::sqrt(std::pow(e.x - t.x, 2) + std::pow(e.y - t.y, 2) + std::pow(e.z - t.z, 2));
-  const double scale = view_spec.height / 2.0 / view_spec.projection.tan_half_y / (view_spec.projection.orthographic ? 1.0 : distance);
+  const double scale =
+      view_spec.height / 2.0 / view_spec.projection.tan_half_y / (view_spec.projection.orthographic ? 1.0 : distance);
   return float(width_px / (2.0 * double(thickest) * scale));
 }
 
@@ -165,7 +167,8 @@ void Scene::setLight(const double to_light_vs[3], double radiance, uint32_t shad
   // View to world: the transpose of the rotation.
   const double* v = camera.view_from_world;
   double d[3];
-  for (int i = 0; i < 3; ++i) d[i] = v[i * 4] * to_light_vs[0] + v[i * 4 + 1] * to_light_vs[1] + v[i * 4 + 2] * to_light_vs[2];
+  for (int i = 0; i < 3; ++i)
+    d[i] = v[i * 4] * to_light_vs[0] + v[i * 4 + 1] * to_light_vs[1] + v[i * 4 + 2] * to_light_vs[2];
   light_ = {};
   for (int i = 0; i < 3; ++i) light_.direction[i] = float(d[i]), light_.radiance[i] = float(radiance);
   light_.casts_shadow = shadow_size != 0;
@@ -236,7 +239,8 @@ reference::Image Scene::toImage(const std::vector<float>& rgba) const {
 reference::ShadowMap Scene::readShadowMap() {
   FlkShadowMap gpu{};
   EXPECT_EQ(flkViewGetShadowMap(view, 0, &gpu), FLK_SUCCESS);
-  reference::ShadowMap map = reference::shadowFrame(reference::boundingSphere(reference_scene), reference_scene.lights[0].direction_to_light, int(gpu.size));
+  reference::ShadowMap map = reference::shadowFrame(reference::boundingSphere(reference_scene),
+                                                    reference_scene.lights[0].direction_to_light, int(gpu.size));
   const std::vector<float> values = host().readDepthImage(gpu.image, gpu.size);
   for (std::size_t i = 0; i < values.size(); ++i)
     map.depth[i] = values[i] >= 1.0f ? std::numeric_limits<float>::infinity() : values[i] * gpu.depth_range;
@@ -249,14 +253,16 @@ reference::FragmentLists Scene::gather(std::span<const double> host_depth) const
   return reference::gatherFragments(reference_scene, camera, options);
 }
 
-reference::Image Scene::referenceImage(const reference::ResolveOptions& options, const std::vector<reference::ShadowMap>& maps) const {
+reference::Image Scene::referenceImage(const reference::ResolveOptions& options,
+                                       const std::vector<reference::ShadowMap>& maps) const {
   return reference::resolve(reference_scene, camera, maps, gather(), options);
 }
 
 void writeFailure(const std::string& name, const reference::Image& actual, const reference::Image& expected) {
   reference::Image difference = actual;
   for (std::size_t i = 0; i < actual.pixels.size(); ++i)
-    for (int c = 0; c < 3; ++c) difference.pixels[i].rgb[c] = std::abs(actual.pixels[i].rgb[c] - expected.pixels[i].rgb[c]);
+    for (int c = 0; c < 3; ++c)
+      difference.pixels[i].rgb[c] = std::abs(actual.pixels[i].rgb[c] - expected.pixels[i].rgb[c]);
   reference::writePfm(name + "-actual.pfm", actual);
   reference::writePfm(name + "-expected.pfm", expected);
   reference::writePfm(name + "-difference.pfm", difference);

@@ -13,7 +13,11 @@ StrandArrays someStrands() {
   StrandArrays strands;
   for (int i = 0; i < 60; ++i) {
     const float x = -0.3f + 0.01f * float(i);
-    strands.add({{x, 0.3f, 0.1f * std::sin(float(i))}, {x + 0.02f, 0.1f, 0.05f}, {x - 0.02f, -0.1f, 0.0f}, {x + 0.05f, -0.3f, 0.1f}}, 0.004f);
+    strands.add({{x, 0.3f, 0.1f * std::sin(float(i))},
+                 {x + 0.02f, 0.1f, 0.05f},
+                 {x - 0.02f, -0.1f, 0.0f},
+                 {x + 0.05f, -0.3f, 0.1f}},
+                0.004f);
   }
   return strands;
 }
@@ -152,10 +156,12 @@ TEST(HostDepth, HidesWhatIsBehindInEveryProjection) {
       const reference::Image actual = scene.toImage(scene.render(frame));
       host().setDepth({});
       const std::vector<reference::ShadowMap> fed{scene.readShadowMap()};
-      const reference::Image expected = reference::resolve(scene.reference_scene, scene.camera, fed, scene.gather(linear), {});
+      const reference::Image expected =
+          reference::resolve(scene.reference_scene, scene.camera, fed, scene.gather(linear), {});
       const reference::Image whole = reference::resolve(scene.reference_scene, scene.camera, fed, scene.gather(), {});
       const double rmse = reference::compare(actual, expected).rmse;
-      std::printf("ROW host depth %s %s: rmse %.3f (without the wall %.1f)\n", orthographic ? "orthographic" : "perspective", reversed ? "reversed" : "standard", rmse,
+      std::printf("ROW host depth %s %s: rmse %.3f (without the wall %.1f)\n",
+                  orthographic ? "orthographic" : "perspective", reversed ? "reversed" : "standard", rmse,
                   reference::compare(actual, whole).rmse);
       EXPECT_LE(rmse, 0.5);
       EXPECT_GT(reference::compare(actual, whole).rmse, 5);
@@ -167,7 +173,8 @@ TEST(Target, HairIsCompositedOverTheHostsColour) {
   scene.setLight(samples::kConditionLight, 2, 0);
   const std::vector<float> alone = scene.render();
   std::vector<float> background(alone.size());
-  for (std::size_t i = 0; i < background.size(); i += 4) background[i] = 0.25f, background[i + 1] = 0.5f, background[i + 2] = 1000.0f, background[i + 3] = 1.0f;
+  for (std::size_t i = 0; i < background.size(); i += 4)
+    background[i] = 0.25f, background[i + 1] = 0.5f, background[i + 2] = 1000.0f, background[i + 3] = 1.0f;
   host().setBackground(background);
   const std::vector<float> over = scene.render();
   host().setBackground({});
@@ -195,16 +202,16 @@ TEST(Display, ShowsSomethingFinite) {
 // Never a NaN in the picture, whatever strands an asset may hold.
 TEST(Hostile, DegenerateStrandsNeverMakeNaN) {
   StrandArrays strands = someStrands();
-  strands.add({{0, 0, 0}, {0, 0, 0}, {0.1f, 0, 0}}, 0.01f);                      // zero-length segment first
-  strands.add({{0, 0, 0}, {0.1f, 0, 0}, {0.1f, 0, 0}}, 0.01f);                   // and last
-  strands.add({{0, 0.1f, 0}, {0.1f, 0.1f, 0}, {0, 0.1f, 0}}, 0.01f);             // straight back
-  strands.add({{0.1f, 0, 0}, {0.1f, 1e-7f, 0}, {0.1f, 2e-7f, 0}}, 0.01f);        // far below a pixel
-  strands.add({{0.2f, 0.1f, 1.5f}, {0.2f, 0.1f, 0.0f}}, 0.01f);                  // along the view axis, through the eye
-  strands.add({{0.1f, 0.1f, 5.0f}, {-0.2f, 0.0f, -5.0f}}, 0.01f);                // crosses the near plane
-  strands.add({{-1e5f, 3, 0}, {1e5f, -3, 0}}, 0.01f);                            // far out on both sides
-  strands.add({{0, 0, 0.5f}, {0.01f, 0, 0.5f}}, 3.0f);                           // wider than the screen
-  strands.add({{0, 0.2f, 0}, {0.2f, 0.2f, 0}}, 0.0f);                            // no width
-  strands.add({{0, 1e-38f, 0}, {1e-38f, 0, 1e-38f}, {0.1f, 0.1f, 0.1f}}, 1e-38f);// denormals
+  strands.add({{0, 0, 0}, {0, 0, 0}, {0.1f, 0, 0}}, 0.01f);                // zero-length segment first
+  strands.add({{0, 0, 0}, {0.1f, 0, 0}, {0.1f, 0, 0}}, 0.01f);             // and last
+  strands.add({{0, 0.1f, 0}, {0.1f, 0.1f, 0}, {0, 0.1f, 0}}, 0.01f);       // straight back
+  strands.add({{0.1f, 0, 0}, {0.1f, 1e-7f, 0}, {0.1f, 2e-7f, 0}}, 0.01f);  // far below a pixel
+  strands.add({{0.2f, 0.1f, 1.5f}, {0.2f, 0.1f, 0.0f}}, 0.01f);            // along the view axis, through the eye
+  strands.add({{0.1f, 0.1f, 5.0f}, {-0.2f, 0.0f, -5.0f}}, 0.01f);          // crosses the near plane
+  strands.add({{-1e5f, 3, 0}, {1e5f, -3, 0}}, 0.01f);                      // far out on both sides
+  strands.add({{0, 0, 0.5f}, {0.01f, 0, 0.5f}}, 3.0f);                     // wider than the screen
+  strands.add({{0, 0.2f, 0}, {0.2f, 0.2f, 0}}, 0.0f);                      // no width
+  strands.add({{0, 1e-38f, 0}, {1e-38f, 0, 1e-38f}, {0.1f, 0.1f, 0.1f}}, 1e-38f);  // denormals
   for (const double eye_z : {1.5, 0.05, 1e3}) {
     ViewSpec view = someView();
     view.eye.z = eye_z;
@@ -273,7 +280,8 @@ TEST(Strands, OpacityMatchesSupersampling) {
         for (int i = 0; i <= int(pair); ++i) {
           const double a = angle + i * (0.4 + 0.15 * heading), x = 0.37 * pixel * i, y = 0.21 * pixel;
           const float dx = float(0.7 * std::cos(a)), dy = float(0.7 * std::sin(a));
-          strands.add({{float(x) - dx, float(y) - dy, 0}, {float(x), float(y), 0}, {float(x) + dx, float(y) + dy, 0}}, float(width / 2 * pixel));
+          strands.add({{float(x) - dx, float(y) - dy, 0}, {float(x), float(y), 0}, {float(x) + dx, float(y) + dy, 0}},
+                      float(width / 2 * pixel));
         }
         ViewSpec view;
         view.width = view.height = 128;
@@ -291,7 +299,8 @@ TEST(Strands, OpacityMatchesSupersampling) {
         }
         worst[pair] = std::max(worst[pair], std::sqrt(squares / pixels));
       }
-    std::printf("ROW drawn opacity against R_cover, %.2f px: one strand %.2f / 255, crossing pair %.2f / 255\n", width, worst[0], worst[1]);
+    std::printf("ROW drawn opacity against R_cover, %.2f px: one strand %.2f / 255, crossing pair %.2f / 255\n", width,
+                worst[0], worst[1]);
     EXPECT_LE(worst[0], 1.0) << width;
     EXPECT_LE(worst[1], 2.0) << width;
   }

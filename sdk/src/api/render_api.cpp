@@ -33,11 +33,13 @@ bool within(float value, float low, float high) { return value >= low && value <
 const char* materialFault(const FlkMaterial& m) {
   for (float c : m.color)
     if (!within(c, 0, 1)) return "material.color must lie in [0, 1]";
-  if (!within(m.opacity_root, 0, 1) || !within(m.opacity_tip, 0, 1)) return "material.opacity_root and opacity_tip must lie in [0, 1]";
+  if (!within(m.opacity_root, 0, 1) || !within(m.opacity_tip, 0, 1))
+    return "material.opacity_root and opacity_tip must lie in [0, 1]";
   if (!within(m.width_scale, 0, 1e6f)) return "material.width_scale must lie in [0, 1e6]";
   if (!within(m.diffuse, 0, 1e3f) || !within(m.specular_r, 0, 1e3f) || !within(m.specular_trt, 0, 1e3f))
     return "material.diffuse, specular_r and specular_trt must lie in [0, 1e3]";
-  if (!within(m.exponent_r, 0, 1e6f) || !within(m.exponent_trt, 0, 1e6f)) return "material.exponent_r and exponent_trt must lie in [0, 1e6]";
+  if (!within(m.exponent_r, 0, 1e6f) || !within(m.exponent_trt, 0, 1e6f))
+    return "material.exponent_r and exponent_trt must lie in [0, 1e6]";
   if (!within(m.cuticle_tilt, -0.785399f, 0.785399f)) return "material.cuticle_tilt must lie in [-pi/4, pi/4]";
   if (!within(m.shadow_opacity, 0, 1)) return "material.shadow_opacity must lie in [0, 1]";
   if (!within(m.fibre_spacing, 1e-30f, 1e30f)) return "material.fibre_spacing must be positive";
@@ -51,16 +53,19 @@ const char* lightFault(const FlkLight& light) {
   for (float c : light.radiance)
     if (!within(c, 0, 1e30f)) return "light.radiance must be finite and not negative";
   if (light.casts_shadow > 1) return "light.casts_shadow must be 0 or 1";
-  if (light.shadow_size && (light.shadow_size < 64 || light.shadow_size > 8192 || light.shadow_size % 2)) return "light.shadow_size must be even and lie in [64, 8192]";
+  if (light.shadow_size && (light.shadow_size < 64 || light.shadow_size > 8192 || light.shadow_size % 2))
+    return "light.shadow_size must be even and lie in [64, 8192]";
   return nullptr;
 }
 
 // What cannot be drawn to or read from, as a sentence.
 const char* targetFault(const FlkColorTarget& target, bool planning) {
   if (target.format != VK_FORMAT_R16G16B16A16_SFLOAT) return "target.format must be VK_FORMAT_R16G16B16A16_SFLOAT";
-  if (target.samples != VK_SAMPLE_COUNT_1_BIT) return "target.samples must be VK_SAMPLE_COUNT_1_BIT: resolve it before hair is drawn";
+  if (target.samples != VK_SAMPLE_COUNT_1_BIT)
+    return "target.samples must be VK_SAMPLE_COUNT_1_BIT: resolve it before hair is drawn";
   if (!planning && (!target.image || !target.view)) return "target.image and target.view must be set";
-  if (!planning && (target.exit.layout == VK_IMAGE_LAYOUT_UNDEFINED || target.exit.layout == VK_IMAGE_LAYOUT_PREINITIALIZED))
+  if (!planning &&
+      (target.exit.layout == VK_IMAGE_LAYOUT_UNDEFINED || target.exit.layout == VK_IMAGE_LAYOUT_PREINITIALIZED))
     return "target.exit.layout must be one that an image can be brought into";
   return nullptr;
 }
@@ -77,7 +82,8 @@ const char* depthFault(const FlkDepthSource& depth, bool planning) {
     case VK_FORMAT_D32_SFLOAT_S8_UINT: break;
     default: return "depth.format is no depth format";
   }
-  if (depth.samples != VK_SAMPLE_COUNT_1_BIT) return "depth.samples must be VK_SAMPLE_COUNT_1_BIT: resolve it before hair is drawn";
+  if (depth.samples != VK_SAMPLE_COUNT_1_BIT)
+    return "depth.samples must be VK_SAMPLE_COUNT_1_BIT: resolve it before hair is drawn";
   switch (depth.layout) {
     case VK_IMAGE_LAYOUT_GENERAL:
     case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL:
@@ -95,7 +101,8 @@ const char* frameFault(const FlkFrame& frame) {
   if (frame.target.width < 1 || frame.target.width > 16384 || frame.target.height < 1 || frame.target.height > 16384)
     return "target.width and target.height must lie in [1, 16384]";
   if (frame.reversed_depth > 1) return "frame.reversed_depth must be 0 or 1";
-  if (frame.hair_count > forelock::kMaxHairs) return "frame.hair_count must be at most 63: draw the rest in another view";
+  if (frame.hair_count > forelock::kMaxHairs)
+    return "frame.hair_count must be at most 63: draw the rest in another view";
   if (frame.hair_count && !frame.hairs) return "frame.hairs is NULL";
   if (frame.light_count > 1) return "frame.light_count must be 0 or 1";
   if (frame.light_count && !frame.lights) return "frame.lights is NULL";
@@ -103,13 +110,15 @@ const char* frameFault(const FlkFrame& frame) {
     if (const char* fault = lightFault(frame.lights[i])) return fault;
   for (float c : frame.ambient)
     if (!within(c, 0, 1e30f)) return "frame.ambient must be finite and not negative";
-  if (!within(frame.exposure, 0, 1e30f) || (frame.exposure != 0 && frame.exposure < 1e-30f)) return "frame.exposure must be positive, or 0 for 1";
+  if (!within(frame.exposure, 0, 1e30f) || (frame.exposure != 0 && frame.exposure < 1e-30f))
+    return "frame.exposure must be positive, or 0 for 1";
   if (frame.method >= std::size(forelock::kMethods)) return "frame.method is none of FLK_METHOD_...";
   if (frame.payload > FLK_PAYLOAD_PAPER) return "frame.payload is none of FLK_PAYLOAD_...";
   if (frame.display > FLK_DISPLAY_LAYERS) return "frame.display is none of FLK_DISPLAY_...";
   if (frame.k != FLK_K_NONE && frame.k > forelock::kMaxSort) return "frame.k must be at most 32, or FLK_K_NONE";
   if (frame.k_sort > forelock::kMaxSort) return "frame.k_sort must be at most 32";
-  if (frame.method == FLK_METHOD_CORE_TAIL && frame.k_sort && frame.k != FLK_K_NONE && frame.k_sort < (frame.k ? frame.k : 8))
+  if (frame.method == FLK_METHOD_CORE_TAIL && frame.k_sort && frame.k != FLK_K_NONE &&
+      frame.k_sort < (frame.k ? frame.k : 8))
     return "frame.k_sort must not be less than k";
   return nullptr;
 }
@@ -138,9 +147,12 @@ FlkResult flkContextCreate(const FlkContextDesc* desc, FlkContext* context) {
   if (!HostMemory::valid(desc->allocator)) return invalid(messages, "allocator needs both functions or neither");
   if (desc->device_allocator && (!desc->device_allocator->allocate || !desc->device_allocator->free))
     return invalid(messages, "device_allocator needs both functions");
-  const int given = (desc->instance != nullptr) + (desc->physical_device != nullptr) + (desc->device != nullptr) + (desc->get_instance_proc_addr != nullptr);
+  const int given = (desc->instance != nullptr) + (desc->physical_device != nullptr) + (desc->device != nullptr) +
+                    (desc->get_instance_proc_addr != nullptr);
   if (given != 0 && given != 4)
-    return invalid(messages, "instance, physical_device, device and get_instance_proc_addr go together: all, or none for a planning context");
+    return invalid(messages,
+                   "instance, physical_device, device and get_instance_proc_addr go together: all, or none for a "
+                   "planning context");
   return guarded([&] {
     HostMemory memory(desc->allocator);
     Context* object = memory.create<Context>(desc->allocator);
@@ -166,7 +178,8 @@ void flkContextDestroy(FlkContext context) {
 
 void flkMaterialDefault(FlkMaterial* material) {
   if (!material) return;
-  *material = {{0.22f, 0.13f, 0.07f}, 0.63f, 0.63f, 1.0f, 0.22f, 0.012f, 14.4f, 0.136f, 11.8f, 0.174532925f, 0.35f, 1.5e-3f};
+  *material = {{0.22f, 0.13f, 0.07f}, 0.63f, 0.63f,  1.0f, 0.22f, 0.012f, 14.4f, 0.136f, 11.8f,
+               0.174532925f,          0.35f, 1.5e-3f};
 }
 
 FlkResult flkHairCreate(FlkContext context, const FlkHairDesc* desc, FlkHair* hair) {
@@ -175,7 +188,8 @@ FlkResult flkHairCreate(FlkContext context, const FlkHairDesc* desc, FlkHair* ha
   if (!context) return FLK_ERROR_INVALID_ARGUMENT;
   Context& owner = *toContext(context);
   const Messages& messages = owner.device.messages;
-  if (!desc || desc->type != FLK_TYPE_HAIR || desc->next) return invalid(messages, "hair desc: type must be FLK_TYPE_HAIR and next NULL");
+  if (!desc || desc->type != FLK_TYPE_HAIR || desc->next)
+    return invalid(messages, "hair desc: type must be FLK_TYPE_HAIR and next NULL");
   if (!desc->asset) return invalid(messages, "hair desc: asset is NULL");
   if (desc->flags & ~uint32_t(FLK_HAIR_KEEP_ORDER)) return invalid(messages, "hair desc: unknown flags");
   if (desc->material)
@@ -201,7 +215,8 @@ FlkResult flkCmdUpload(VkCommandBuffer cmd, FlkHair hair) {
   Hair& object = *toHair(hair);
   const forelock::Device& device = object.context().device;
   if (device.planning()) return invalid(device.messages, "flkCmdUpload needs a context with a device");
-  if (!object.bytesStaging()) return invalid(device.messages, "flkCmdUpload: the staging memory of this hair has been released");
+  if (!object.bytesStaging())
+    return invalid(device.messages, "flkCmdUpload: the staging memory of this hair has been released");
   object.upload(cmd);
   return FLK_SUCCESS;
 }
@@ -216,10 +231,12 @@ FlkResult flkHairSetTransform(FlkHair hair, const double world_from_hair[16]) {
   const Messages& messages = object.context().device.messages;
   forelock::Mat4 m;
   for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(world_from_hair[i])) return invalid(messages, "world_from_hair holds a value that is not finite");
+    if (!std::isfinite(world_from_hair[i]))
+      return invalid(messages, "world_from_hair holds a value that is not finite");
     m[i] = world_from_hair[i];
   }
-  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) return invalid(messages, "the last row of world_from_hair must be 0 0 0 1");
+  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+    return invalid(messages, "the last row of world_from_hair must be 0 0 0 1");
   const double volume = std::abs(forelock::determinant3(m));
   if (!(volume > 0) || !std::isfinite(volume)) return invalid(messages, "world_from_hair flattens the hair");
   object.world_from_hair = m;
@@ -253,8 +270,10 @@ FlkResult flkViewCreate(FlkContext context, const FlkViewDesc* desc, FlkView* vi
   if (!context) return FLK_ERROR_INVALID_ARGUMENT;
   Context& owner = *toContext(context);
   const Messages& messages = owner.device.messages;
-  if (!desc || desc->type != FLK_TYPE_VIEW || desc->next) return invalid(messages, "view desc: type must be FLK_TYPE_VIEW and next NULL");
-  if (desc->frames_in_flight > forelock::kMaxFramesInFlight) return invalid(messages, "view desc: frames_in_flight must be at most 8");
+  if (!desc || desc->type != FLK_TYPE_VIEW || desc->next)
+    return invalid(messages, "view desc: type must be FLK_TYPE_VIEW and next NULL");
+  if (desc->frames_in_flight > forelock::kMaxFramesInFlight)
+    return invalid(messages, "view desc: frames_in_flight must be at most 8");
   return guarded([&] {
     View* object = owner.memory().create<View>(owner);
     FlkResult result = FLK_ERROR_OUT_OF_HOST_MEMORY;
@@ -292,7 +311,8 @@ FlkResult flkPlanFrame(FlkView view, const FlkFrame* frame, FlkPlan* plan) {
   for (uint32_t i = 0; i < frame->hair_count; ++i) {
     hairs[i] = toHair(frame->hairs[i]);
     if (!hairs[i]) return invalid(device.messages, "frame.hairs holds a NULL");
-    if (&hairs[i]->context() != &object.context()) return invalid(device.messages, "frame.hairs holds a hair of another context");
+    if (&hairs[i]->context() != &object.context())
+      return invalid(device.messages, "frame.hairs holds a hair of another context");
     for (uint32_t j = 0; j < i; ++j)
       if (hairs[j] == hairs[i]) return invalid(device.messages, "frame.hairs holds a hair twice");
   }

@@ -36,83 +36,93 @@ FlkResult Device::init(const FlkContextDesc& desc, const Messages& context_messa
                  "get_instance_proc_addr gives no %s: instance and device must be of Vulkan 1.3", name);
     return FLK_ERROR_UNSUPPORTED_DEVICE;
   };
-#define FLK_LOAD(name)                                                                              \
-  fn.name = reinterpret_cast<PFN_##name>(desc.get_instance_proc_addr(desc.instance, #name));        \
+#define FLK_LOAD(name)                                                                       \
+  fn.name = reinterpret_cast<PFN_##name>(desc.get_instance_proc_addr(desc.instance, #name)); \
   if (!fn.name) return missing(#name);
   FLK_INSTANCE_FUNCTIONS(FLK_LOAD)
 #undef FLK_LOAD
 
-  VkPhysicalDeviceProperties properties{};
-  fn.vkGetPhysicalDeviceProperties(desc.physical_device, &properties);
-  if (properties.apiVersion < VK_API_VERSION_1_3) {
-    messages.say(FLK_SEVERITY_ERROR, "DEVICE_VERSION", "device %.200s offers Vulkan %u.%u, 1.3 is needed", properties.deviceName,
-                 VK_API_VERSION_MAJOR(properties.apiVersion), VK_API_VERSION_MINOR(properties.apiVersion));
-    return FLK_ERROR_UNSUPPORTED_DEVICE;
-  }
-  VkPhysicalDeviceVulkan13Features features13{};
-  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-  VkPhysicalDeviceVulkan12Features features12{};
-  features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-  features12.pNext = &features13;
-  VkPhysicalDeviceFeatures2 features{};
-  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-  features.pNext = &features12;
-  fn.vkGetPhysicalDeviceFeatures2(desc.physical_device, &features);
-  const struct { VkBool32 has; const char* name; } needs[] = {
-      {features.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics"},
-      {features12.scalarBlockLayout, "scalarBlockLayout"},
-      {features12.bufferDeviceAddress, "bufferDeviceAddress"},
-      {features13.dynamicRendering, "dynamicRendering"},
-      {features13.synchronization2, "synchronization2"},
-  };
-  for (const auto& need : needs)
-    if (!need.has) {
-      messages.say(FLK_SEVERITY_ERROR, "DEVICE_FEATURE_MISSING", "device %.200s lacks the feature %s", properties.deviceName, need.name);
+    VkPhysicalDeviceProperties properties{};
+    fn.vkGetPhysicalDeviceProperties(desc.physical_device, &properties);
+    if (properties.apiVersion < VK_API_VERSION_1_3) {
+      messages.say(FLK_SEVERITY_ERROR, "DEVICE_VERSION", "device %.200s offers Vulkan %u.%u, 1.3 is needed",
+                   properties.deviceName, VK_API_VERSION_MAJOR(properties.apiVersion),
+                   VK_API_VERSION_MINOR(properties.apiVersion));
       return FLK_ERROR_UNSUPPORTED_DEVICE;
     }
+    VkPhysicalDeviceVulkan13Features features13{};
+    features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    VkPhysicalDeviceVulkan12Features features12{};
+    features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    features12.pNext = &features13;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &features12;
+    fn.vkGetPhysicalDeviceFeatures2(desc.physical_device, &features);
+    const struct {
+      VkBool32 has;
+      const char* name;
+    } needs[] = {
+        {features.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics"},
+        {features12.scalarBlockLayout, "scalarBlockLayout"},
+        {features12.bufferDeviceAddress, "bufferDeviceAddress"},
+        {features13.dynamicRendering, "dynamicRendering"},
+        {features13.synchronization2, "synchronization2"},
+    };
+    for (const auto& need : needs)
+      if (!need.has) {
+        messages.say(FLK_SEVERITY_ERROR, "DEVICE_FEATURE_MISSING", "device %.200s lacks the feature %s",
+                     properties.deviceName, need.name);
+        return FLK_ERROR_UNSUPPORTED_DEVICE;
+      }
 
-  uint32_t family_count = 0;
-  fn.vkGetPhysicalDeviceQueueFamilyProperties(desc.physical_device, &family_count, nullptr);
-  constexpr uint32_t kMaxFamilies = 32;
-  VkQueueFamilyProperties families[kMaxFamilies]{};
-  family_count = std::min(family_count, kMaxFamilies);
-  fn.vkGetPhysicalDeviceQueueFamilyProperties(desc.physical_device, &family_count, families);
-  constexpr VkQueueFlags kQueue = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-  if (desc.queue_family >= family_count || (families[desc.queue_family].queueFlags & kQueue) != kQueue) {
-    messages.say(FLK_SEVERITY_ERROR, "DEVICE_QUEUE", "queue family %u of device %.200s does not offer both graphics and compute",
-                 desc.queue_family, properties.deviceName);
-    return FLK_ERROR_UNSUPPORTED_DEVICE;
-  }
-  timestamp_bits = families[desc.queue_family].timestampValidBits;
+    uint32_t family_count = 0;
+    fn.vkGetPhysicalDeviceQueueFamilyProperties(desc.physical_device, &family_count, nullptr);
+    constexpr uint32_t kMaxFamilies = 32;
+    VkQueueFamilyProperties families[kMaxFamilies]{};
+    family_count = std::min(family_count, kMaxFamilies);
+    fn.vkGetPhysicalDeviceQueueFamilyProperties(desc.physical_device, &family_count, families);
+    constexpr VkQueueFlags kQueue = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    if (desc.queue_family >= family_count || (families[desc.queue_family].queueFlags & kQueue) != kQueue) {
+      messages.say(FLK_SEVERITY_ERROR, "DEVICE_QUEUE",
+                   "queue family %u of device %.200s does not offer both graphics and compute", desc.queue_family,
+                   properties.deviceName);
+      return FLK_ERROR_UNSUPPORTED_DEVICE;
+    }
+    timestamp_bits = families[desc.queue_family].timestampValidBits;
 
-#define FLK_LOAD(name)                                                                  \
-  fn.name = reinterpret_cast<PFN_##name>(fn.vkGetDeviceProcAddr(desc.device, #name));    \
+#define FLK_LOAD(name)                                                                \
+  fn.name = reinterpret_cast<PFN_##name>(fn.vkGetDeviceProcAddr(desc.device, #name)); \
   if (!fn.name) return missing(#name);
-  FLK_DEVICE_FUNCTIONS(FLK_LOAD)
+    FLK_DEVICE_FUNCTIONS(FLK_LOAD)
 #undef FLK_LOAD
 
-  fn.vkGetPhysicalDeviceMemoryProperties(desc.physical_device, &memory_);
-  limits = properties.limits;
-  pipeline_cache = desc.pipeline_cache;
-  if (desc.device_allocator) allocator_ = *desc.device_allocator, host_allocates_ = true;
-  device = desc.device;
-  return FLK_SUCCESS;
+      fn.vkGetPhysicalDeviceMemoryProperties(desc.physical_device, &memory_);
+      limits = properties.limits;
+      pipeline_cache = desc.pipeline_cache;
+      if (desc.device_allocator) allocator_ = *desc.device_allocator, host_allocates_ = true;
+      device = desc.device;
+      return FLK_SUCCESS;
 }
 
-FlkResult Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
-                           bool address, const char* name, FlkDeviceAllocation& allocation) {
+FlkResult Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted,
+                           VkMemoryPropertyFlags preferred, bool address, const char* name,
+                           FlkDeviceAllocation& allocation) {
   allocation = {};
   if (host_allocates_) {
     const VkResult result = allocator_.allocate(allocator_.user, &requirements, wanted, name, &allocation);
-    if (result == VK_SUCCESS && ((wanted & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) == 0 || allocation.mapped)) return FLK_SUCCESS;
+    if (result == VK_SUCCESS && ((wanted & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) == 0 || allocation.mapped))
+      return FLK_SUCCESS;
     if (result == VK_SUCCESS) {
       allocator_.free(allocator_.user, &allocation);
       allocation = {};
-      messages.say(FLK_SEVERITY_ERROR, "DEVICE_MEMORY_NOT_MAPPED", "the host's device allocator left FlkDeviceAllocation.mapped NULL for %s", name);
+      messages.say(FLK_SEVERITY_ERROR, "DEVICE_MEMORY_NOT_MAPPED",
+                   "the host's device allocator left FlkDeviceAllocation.mapped NULL for %s", name);
       return FLK_ERROR_OUT_OF_DEVICE_MEMORY;
     }
     allocation = {};
-    messages.say(FLK_SEVERITY_ERROR, "DEVICE_MEMORY", "the host's device allocator refused %" PRIu64 " bytes for %s", requirements.size, name);
+    messages.say(FLK_SEVERITY_ERROR, "DEVICE_MEMORY", "the host's device allocator refused %" PRIu64 " bytes for %s",
+                 requirements.size, name);
     return toResult(result);
   }
   uint32_t type = findMemoryType(memory_, requirements.memoryTypeBits, wanted | preferred);
@@ -125,14 +135,16 @@ FlkResult Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPro
   if (address) info.pNext = &flags;
   info.allocationSize = requirements.size;
   info.memoryTypeIndex = type;
-  VkResult result = type == UINT32_MAX ? VK_ERROR_OUT_OF_DEVICE_MEMORY : fn.vkAllocateMemory(device, &info, nullptr, &allocation.memory);
+  VkResult result = type == UINT32_MAX ? VK_ERROR_OUT_OF_DEVICE_MEMORY
+                                       : fn.vkAllocateMemory(device, &info, nullptr, &allocation.memory);
   if (result == VK_SUCCESS && (wanted & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT)) {
     result = fn.vkMapMemory(device, allocation.memory, 0, VK_WHOLE_SIZE, 0, &allocation.mapped);
     if (result != VK_SUCCESS) fn.vkFreeMemory(device, allocation.memory, nullptr), allocation = {};
   }
   if (result == VK_SUCCESS) return FLK_SUCCESS;
   allocation = {};
-  messages.say(FLK_SEVERITY_ERROR, "DEVICE_MEMORY", "no device memory for %s (%" PRIu64 " bytes)", name, requirements.size);
+  messages.say(FLK_SEVERITY_ERROR, "DEVICE_MEMORY", "no device memory for %s (%" PRIu64 " bytes)", name,
+               requirements.size);
   return toResult(result);
 }
 
@@ -145,7 +157,8 @@ void Device::release(FlkDeviceAllocation& allocation) {
   allocation = {};
 }
 
-FlkResult Device::createBuffer(uint64_t size, VkBufferUsageFlags usage, bool host_visible, const char* name, Buffer& buffer) {
+FlkResult Device::createBuffer(uint64_t size, VkBufferUsageFlags usage, bool host_visible, const char* name,
+                               Buffer& buffer) {
   buffer = {};
   buffer.size = size;
   if (planning()) return FLK_SUCCESS;
@@ -162,8 +175,10 @@ FlkResult Device::createBuffer(uint64_t size, VkBufferUsageFlags usage, bool hos
   const bool address = usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
   // What the device reads every frame should be near it, also where the host writes it once.
   const bool near = !host_visible || (usage & VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-  FlkResult flk = allocate(requirements, host_visible ? kHost : kLocal, near ? kLocal : VkMemoryPropertyFlags(0), address, name, buffer.memory);
-  if (flk == FLK_SUCCESS) flk = toResult(fn.vkBindBufferMemory(device, buffer.handle, buffer.memory.memory, buffer.memory.offset));
+  FlkResult flk = allocate(requirements, host_visible ? kHost : kLocal, near ? kLocal : VkMemoryPropertyFlags(0),
+                           address, name, buffer.memory);
+  if (flk == FLK_SUCCESS)
+    flk = toResult(fn.vkBindBufferMemory(device, buffer.handle, buffer.memory.memory, buffer.memory.offset));
   if (flk != FLK_SUCCESS) return destroy(buffer), flk;
   if (address) {
     VkBufferDeviceAddressInfo where{};
@@ -186,13 +201,15 @@ FlkResult Device::createDepthImage(uint32_t size, const char* name, Image& image
   info.mipLevels = info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
-  info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  info.usage =
+      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   VkResult result = fn.vkCreateImage(device, &info, nullptr, &image.handle);
   if (result != VK_SUCCESS) return image = {}, toResult(result);
   VkMemoryRequirements requirements{};
   fn.vkGetImageMemoryRequirements(device, image.handle, &requirements);
   FlkResult flk = allocate(requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, false, name, image.memory);
-  if (flk == FLK_SUCCESS) flk = toResult(fn.vkBindImageMemory(device, image.handle, image.memory.memory, image.memory.offset));
+  if (flk == FLK_SUCCESS)
+    flk = toResult(fn.vkBindImageMemory(device, image.handle, image.memory.memory, image.memory.offset));
   if (flk == FLK_SUCCESS) {
     VkImageViewCreateInfo view{};
     view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;

@@ -89,7 +89,8 @@ float brightestFragment(const Frame& frame, const FlkFrame& asked) {
     for (int channel = 0; channel < 3; ++channel) {
       const float light = asked.light_count ? asked.lights[0].radiance[channel] : 0;
       const float diffuse = m.diffuse * m.color[channel];
-      brightest = std::max(brightest, light * (diffuse + m.specular_r + m.specular_trt * m.color[channel]) + asked.ambient[channel] * diffuse);
+      brightest = std::max(brightest, light * (diffuse + m.specular_r + m.specular_trt * m.color[channel]) +
+                                          asked.ambient[channel] * diffuse);
     }
   }
   return std::min(brightest, 1e30f);
@@ -106,7 +107,8 @@ void fillConstants(Frame& frame, const FlkFrame& asked, const Camera& camera, co
   c.orthographic = camera.orthographic ? 1.0f : 0.0f;
   c.near_plane = float(camera.near_plane);
   c.size = {float(camera.width), float(camera.height)};
-  c.pixels_per_unit = {float(std::abs(camera.scale[0]) * camera.width / 2), float(std::abs(camera.scale[1]) * camera.height / 2)};
+  c.pixels_per_unit = {float(std::abs(camera.scale[0]) * camera.width / 2),
+                       float(std::abs(camera.scale[1]) * camera.height / 2)};
   c.rect = {plan.rect.x, plan.rect.y, plan.rect.width, plan.rect.height};
   c.node_capacity = uint32_t(plan.node_capacity);
   c.node_pool = {uint32_t(frame.node_address), uint32_t(frame.node_address >> 32)};
@@ -134,7 +136,8 @@ void fillConstants(Frame& frame, const FlkFrame& asked, const Camera& camera, co
     }
   }
   if (plan.method->shaded && plan.method->capture == CaptureKind::color)
-    c.color_range = plan.payload == FLK_PAYLOAD_PAPER ? 1 / (asked.exposure == 0 ? 1.0f : asked.exposure) : brightestFragment(frame, asked);
+    c.color_range = plan.payload == FLK_PAYLOAD_PAPER ? 1 / (asked.exposure == 0 ? 1.0f : asked.exposure)
+                                                      : brightestFragment(frame, asked);
   for (uint32_t i = 0; i < asked.hair_count; ++i) {
     gpu::HairConstants h = hairConstants(frame.hairs[i]->material, facts[i]);
     h.view_from_hair = toMat4x3(camera.view_from_world * facts[i].world_from_hair);

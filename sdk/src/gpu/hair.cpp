@@ -26,8 +26,10 @@ uint64_t splitMix(uint64_t& state) {
 }  // namespace
 
 FlkResult Hair::init(const FlkHairDesc& desc, const FlkStrands& strands) {
-  if (desc.material) material = *desc.material;
-  else flkMaterialDefault(&material);
+  if (desc.material)
+    material = *desc.material;
+  else
+    flkMaterialDefault(&material);
   strand_count = strands.strand_count;
   vertex_count = strands.vertex_count;
   segment_count = vertex_count - strand_count;
@@ -48,20 +50,24 @@ FlkResult Hair::init(const FlkHairDesc& desc, const FlkStrands& strands) {
   const char* names[] = {"hair positions", "hair attributes", "hair segments"};
   for (int i = 0; i < 3; ++i) {
     if (bytes_[i] > device.limits.maxStorageBufferRange) {
-      device.messages.say(FLK_SEVERITY_ERROR, "HAIR_TOO_LARGE", "%s need %llu bytes, the device binds at most %u: split the asset",
-                          names[i], static_cast<unsigned long long>(bytes_[i]), device.limits.maxStorageBufferRange);
+      device.messages.say(FLK_SEVERITY_ERROR, "HAIR_TOO_LARGE",
+                          "%s need %llu bytes, the device binds at most %u: split the asset", names[i],
+                          static_cast<unsigned long long>(bytes_[i]), device.limits.maxStorageBufferRange);
       return FLK_ERROR_LIMIT;
     }
   }
   FlkResult result = FLK_SUCCESS;
   for (int i = 0; i < 3 && result == FLK_SUCCESS; ++i)
-    result = device.createBuffer(bytes_[i], VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, false, names[i], buffers_[i]);
-  if (result == FLK_SUCCESS) result = device.createBuffer(bytesDevice(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true, "hair staging", staging_);
+    result = device.createBuffer(bytes_[i], VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                 false, names[i], buffers_[i]);
+  if (result == FLK_SUCCESS)
+    result = device.createBuffer(bytesDevice(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true, "hair staging", staging_);
   if (result == FLK_SUCCESS && !device.planning()) result = createSet();
   if (result != FLK_SUCCESS) return destroy(), result;
 
   try {
-    fill(strands, desc.flags & FLK_HAIR_KEEP_ORDER, desc.shuffle_seed, static_cast<unsigned char*>(staging_.memory.mapped));
+    fill(strands, desc.flags & FLK_HAIR_KEEP_ORDER, desc.shuffle_seed,
+         static_cast<unsigned char*>(staging_.memory.mapped));
   } catch (...) {
     destroy();
     throw;
@@ -102,7 +108,8 @@ void Hair::fill(const FlkStrands& strands, bool keep_order, uint32_t seed, unsig
       const double radius = radius_max > 0 ? std::sqrt(double(strands.radii[i]) / radius_max) : 0;
       const double fraction = std::min(walked / strand_length, 1.0);  // an asset holds no strand without length
       attributes[vertex] = uint32_t(std::lround(radius * FLK_RADIUS_STEPS)) |
-                           uint32_t(std::lround(fraction * FLK_FRACTION_STEPS)) << FLK_FRACTION_SHIFT | hash << FLK_HASH_SHIFT;
+                           uint32_t(std::lround(fraction * FLK_FRACTION_STEPS)) << FLK_FRACTION_SHIFT |
+                           hash << FLK_HASH_SHIFT;
       if (i + 1 == end) continue;
       walked += segmentLength(i);
       *segments++ = vertex | (i == begin ? FLK_SEGMENT_ROOT : 0) | (i + 2 == end ? FLK_SEGMENT_TIP : 0);

@@ -8,7 +8,8 @@ namespace forelock {
 namespace {
 
 // Only the stages that read a binding: no stage sees more than 4 storage buffers, the least that every device offers.
-constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT, kFragment = VK_SHADER_STAGE_FRAGMENT_BIT, kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
+constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT, kFragment = VK_SHADER_STAGE_FRAGMENT_BIT,
+                             kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
 
 struct BindingKind {
   VkDescriptorType type;
@@ -24,7 +25,8 @@ VkResult createShader(Device& device, ShaderId id, VkShaderModule& module) {
   return device.fn.vkCreateShaderModule(device.device, &info, nullptr, &module);
 }
 
-VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module, const VkSpecializationInfo* constants) {
+VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
+                                          const VkSpecializationInfo* constants) {
   VkPipelineShaderStageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
   info.stage = stage;
@@ -34,7 +36,8 @@ VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderM
   return info;
 }
 
-VkResult createCompute(Device& device, VkPipelineLayout layout, VkShaderModule main, const VkSpecializationInfo* constants, VkPipeline& pipeline) {
+VkResult createCompute(Device& device, VkPipelineLayout layout, VkShaderModule main,
+                       const VkSpecializationInfo* constants, VkPipeline& pipeline) {
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, main, constants);
@@ -42,8 +45,8 @@ VkResult createCompute(Device& device, VkPipelineLayout layout, VkShaderModule m
   return device.fn.vkCreateComputePipelines(device.device, device.pipeline_cache, 1, &info, nullptr, &pipeline);
 }
 
-VkResult createRaster(Device& device, VkPipelineLayout layout, VkShaderModule vertex, VkShaderModule fragment, bool depth,
-                      const VkSpecializationInfo* constants, VkPipeline& pipeline) {
+VkResult createRaster(Device& device, VkPipelineLayout layout, VkShaderModule vertex, VkShaderModule fragment,
+                      bool depth, const VkSpecializationInfo* constants, VkPipeline& pipeline) {
   const VkPipelineShaderStageCreateInfo stages[] = {stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex, nullptr),
                                                     stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, constants)};
   VkPipelineVertexInputStateCreateInfo input{};
@@ -109,8 +112,12 @@ VkResult createSetLayout(Device& device, const BindingKind* kinds, uint32_t coun
 FlkResult Pipelines::init(Device& device) {
   if (device.planning()) return FLK_SUCCESS;
   constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kImage = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-  const BindingKind view_types[] = {{kBuffer, kVertex | kFragment | kCompute}, {kBuffer, kFragment | kCompute}, {kBuffer, kFragment | kCompute},
-                                    {kImage, kFragment}, {kImage, kFragment | kCompute}, {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kCompute}};
+  const BindingKind view_types[] = {{kBuffer, kVertex | kFragment | kCompute},
+                                    {kBuffer, kFragment | kCompute},
+                                    {kBuffer, kFragment | kCompute},
+                                    {kImage, kFragment},
+                                    {kImage, kFragment | kCompute},
+                                    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kCompute}};
   const BindingKind hair_types[] = {{kBuffer, kVertex}, {kBuffer, kVertex}, {kBuffer, kVertex}};
   VkResult result = createSetLayout(device, view_types, uint32_t(std::size(view_types)), view_set);
   if (result != VK_SUCCESS) view_set = VK_NULL_HANDLE;
@@ -168,7 +175,8 @@ FlkResult Pipelines::get(Device& device, const Recipe& recipe, VkPipeline& pipel
   if (main) device.fn.vkDestroyShaderModule(device.device, main, nullptr);
   if (result != VK_SUCCESS) {
     pipeline = VK_NULL_HANDLE;
-    device.messages.say(FLK_SEVERITY_ERROR, "PIPELINE", "the driver could not compile a pipeline (VkResult %d)", int(result));
+    device.messages.say(FLK_SEVERITY_ERROR, "PIPELINE", "the driver could not compile a pipeline (VkResult %d)",
+                        int(result));
     return toResult(result);
   }
   cache_.push_back({recipe, pipeline});

@@ -10,11 +10,13 @@ constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_P
 constexpr VkPipelineStageFlags2 kVertex = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
 constexpr VkPipelineStageFlags2 kFragment = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-constexpr VkPipelineStageFlags2 kDepthTests = VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+constexpr VkPipelineStageFlags2 kDepthTests =
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
 constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
 constexpr VkAccessFlags2 kStorageWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 
-VkMemoryBarrier2 memoryBarrier(VkPipelineStageFlags2 from, VkAccessFlags2 written, VkPipelineStageFlags2 to, VkAccessFlags2 used) {
+VkMemoryBarrier2 memoryBarrier(VkPipelineStageFlags2 from, VkAccessFlags2 written, VkPipelineStageFlags2 to,
+                               VkAccessFlags2 used) {
   VkMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
   barrier.srcStageMask = from;
@@ -24,7 +26,8 @@ VkMemoryBarrier2 memoryBarrier(VkPipelineStageFlags2 from, VkAccessFlags2 writte
   return barrier;
 }
 
-VkImageMemoryBarrier2 imageBarrier(VkImage image, VkImageSubresourceRange range, const FlkImageState& from, const FlkImageState& to) {
+VkImageMemoryBarrier2 imageBarrier(VkImage image, VkImageSubresourceRange range, const FlkImageState& from,
+                                   const FlkImageState& to) {
   VkImageMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
   barrier.srcStageMask = from.stages;
@@ -60,8 +63,10 @@ struct Barriers {
 
 const VkImageSubresourceRange kDepthRange{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
 const FlkImageState kTargetInside{VK_IMAGE_LAYOUT_GENERAL, kCompute, kStorageRead | kStorageWrite};
-const FlkImageState kShadowDrawn{VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepthTests, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-const FlkImageState kShadowRead{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kFragment | kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+const FlkImageState kShadowDrawn{VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepthTests,
+                                 VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+const FlkImageState kShadowRead{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kFragment | kCompute,
+                                VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 
 void setViewport(const Functions& fn, VkCommandBuffer cmd, float width, float height, const VkRect2D& scissor) {
   const VkViewport viewport{0, 0, width, height, 0, 1};
@@ -76,14 +81,17 @@ void View::drawHair(VkCommandBuffer cmd, const Frame& frame, uint32_t index) {
   const VkPipelineLayout layout = context_.pipelines.layout;
   const Hair& hair = *frame.hairs[index];
   if (!hair.uploaded) {  // its buffers hold anything: indices read from them could point anywhere
-    context_.device.messages.say(FLK_SEVERITY_WARNING, "HAIR_NOT_UPLOADED", "hair %u of frame %llu is left out: record flkCmdUpload first", index,
+    context_.device.messages.say(FLK_SEVERITY_WARNING, "HAIR_NOT_UPLOADED",
+                                 "hair %u of frame %llu is left out: record flkCmdUpload first", index,
                                  static_cast<unsigned long long>(frame.number));
     return;
   }
   fn.vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1, &hair.set, 0, nullptr);
-  fn.vkCmdPushConstants(cmd, layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof index, &index);
+  fn.vkCmdPushConstants(cmd, layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof index,
+                        &index);
   for (uint32_t first = 0; first < hair.segment_count; first += kSegmentsPerDraw) {
-    const uint32_t count = hair.segment_count - first < kSegmentsPerDraw ? hair.segment_count - first : kSegmentsPerDraw;
+    const uint32_t count =
+        hair.segment_count - first < kSegmentsPerDraw ? hair.segment_count - first : kSegmentsPerDraw;
     fn.vkCmdDrawIndexed(cmd, count * 6, 1, 0, int32_t(first * 4), 0);
   }
 }
@@ -130,31 +138,40 @@ void View::record(VkCommandBuffer cmd, Frame& frame) {
   const FramePlan& plan = frame.plan;
   frame.recorded = true;
   if (plan.passes.count == 0) {
-    Barriers().add(imageBarrier(frame.target.image, frame.target.range, frame.target.entry, frame.target.exit)).record(fn, cmd);
+    Barriers()
+        .add(imageBarrier(frame.target.image, frame.target.range, frame.target.entry, frame.target.exit))
+        .record(fn, cmd);
     return;
   }
   const uint32_t first_query = frame.slot * kTimestamps;
   auto timestamp = [&](uint32_t index) {
-    if (plan.timestamps) fn.vkCmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, first_query + index);
+    if (plan.timestamps)
+      fn.vkCmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, first_query + index);
   };
   if (plan.timestamps) fn.vkCmdResetQueryPool(cmd, queries_, first_query, kTimestamps);
   timestamp(0);
 
   // After the frame before, whose passes may still run on this queue.
   constexpr VkPipelineStageFlags2 kBefore = kVertex | kFragment | kCompute | kTransfer;
-  Barriers().add(memoryBarrier(kBefore, kStorageWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT, kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT)).record(fn, cmd);
+  Barriers()
+      .add(memoryBarrier(kBefore, kStorageWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT, kTransfer,
+                         VK_ACCESS_2_TRANSFER_WRITE_BIT))
+      .record(fn, cmd);
   const uint64_t constant_bytes = offsetof(gpu::FrameConstants, hairs) + frame.hair_count * sizeof(gpu::HairConstants);
   fn.vkCmdUpdateBuffer(cmd, frame.constants, 0, constant_bytes, &frame.values);
   fn.vkCmdFillBuffer(cmd, frame.heads, 0, plan.bytes(ResourceId::heads), FLK_LINK_END);
   fn.vkCmdFillBuffer(cmd, frame.counters, 0, VK_WHOLE_SIZE, 0);
   Barriers ready;
-  ready.add(memoryBarrier(kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT, kVertex | kFragment | kCompute, kStorageRead | kStorageWrite));
+  ready.add(memoryBarrier(kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT, kVertex | kFragment | kCompute,
+                          kStorageRead | kStorageWrite));
   if (plan.has_depth) {
     FlkImageState from{frame.depth.layout, frame.depth.entry_stages, frame.depth.entry_access};
-    ready.add(imageBarrier(frame.depth.image, frame.depth.range, from, {frame.depth.layout, kFragment, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}));
+    ready.add(imageBarrier(frame.depth.image, frame.depth.range, from,
+                           {frame.depth.layout, kFragment, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}));
   }
   if (plan.shadow_size) {
-    const FlkImageState from{VK_IMAGE_LAYOUT_UNDEFINED, kFragment | kCompute | kDepthTests, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+    const FlkImageState from{VK_IMAGE_LAYOUT_UNDEFINED, kFragment | kCompute | kDepthTests,
+                             VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
     FlkImageState to = kShadowDrawn;
     to.access |= VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
     ready.add(imageBarrier(frame.shadow_map.handle, kDepthRange, from, to));
@@ -173,7 +190,8 @@ void View::record(VkCommandBuffer cmd, Frame& frame) {
 
   recordCapture(cmd, frame);
   Barriers()
-      .add(memoryBarrier(kFragment, kStorageWrite, kCompute | VK_PIPELINE_STAGE_2_COPY_BIT, kStorageRead | VK_ACCESS_2_TRANSFER_READ_BIT))
+      .add(memoryBarrier(kFragment, kStorageWrite, kCompute | VK_PIPELINE_STAGE_2_COPY_BIT,
+                         kStorageRead | VK_ACCESS_2_TRANSFER_READ_BIT))
       .add(imageBarrier(frame.target.image, frame.target.range, frame.target.entry, kTargetInside))
       .record(fn, cmd);
   timestamp(1 + FLK_STAGE_CAPTURE);
@@ -185,7 +203,8 @@ void View::record(VkCommandBuffer cmd, Frame& frame) {
   const Pass& resolve = *(plan.passes.end() - 1);
   fn.vkCmdDispatch(cmd, resolve.groups[0], resolve.groups[1], resolve.groups[2]);
   Barriers()
-      .add(memoryBarrier(VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT))
+      .add(memoryBarrier(VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
+                         VK_ACCESS_2_HOST_READ_BIT))
       .add(imageBarrier(frame.target.image, frame.target.range, kTargetInside, frame.target.exit))
       .record(fn, cmd);
   timestamp(1 + FLK_STAGE_RESOLVE);

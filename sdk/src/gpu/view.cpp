@@ -10,7 +10,8 @@ namespace {
 constexpr uint64_t kDefaultBudget = uint64_t(256) << 20;
 constexpr uint64_t kCountBytes = 16;       // of the read-back buffer, a frame
 constexpr uint32_t kSmallHeadsFrames = 8;  // before heads twice too large are given back
-constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+constexpr VkBufferUsageFlags kStorage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
 }  // namespace
 
@@ -32,16 +33,16 @@ void View::destroy() {
   queries_ = VK_NULL_HANDLE;
 }
 
-uint64_t View::nodeLimit() const {
-  return std::max<uint64_t>(1, std::min(pool_budget_ / kNodeBytes, kMaxNodes));
-}
+uint64_t View::nodeLimit() const { return std::max<uint64_t>(1, std::min(pool_budget_ / kNodeBytes, kMaxNodes)); }
 
 // ---- Completed frames ----
 
 void View::learn(uint64_t completed) {
   const Frame* newest = nullptr;
   for (const Frame& frame : frames_)
-    if (frame.recorded && frame.number <= completed && frame.number > learnt_ && (!newest || frame.number > newest->number)) newest = &frame;
+    if (frame.recorded && frame.number <= completed && frame.number > learnt_ &&
+        (!newest || frame.number > newest->number))
+      newest = &frame;
   if (newest) readStatistics(*newest);
 }
 
@@ -53,7 +54,8 @@ void View::readStatistics(const Frame& frame) {
   if (frame.plan.passes.count == 0) return;
   const Device& device = context_.device;
   uint32_t count = 0;
-  if (!device.planning()) count = static_cast<const uint32_t*>(read_back_.memory.mapped)[frame.slot * (kCountBytes / 4)];
+  if (!device.planning())
+    count = static_cast<const uint32_t*>(read_back_.memory.mapped)[frame.slot * (kCountBytes / 4)];
   latest_.fragments = count;
   latest_.fragments_lost = count > frame.plan.node_capacity ? count - frame.plan.node_capacity : 0;
   pool_.last_count = count;
@@ -61,13 +63,14 @@ void View::readStatistics(const Frame& frame) {
   pool_.counted = true;
   if (!frame.plan.timestamps || !queries_) return;
   uint64_t ticks[kTimestamps] = {};
-  if (device.fn.vkGetQueryPoolResults(device.device, queries_, frame.slot * kTimestamps, kTimestamps, sizeof ticks, ticks, sizeof ticks[0],
-                                      VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
+  if (device.fn.vkGetQueryPoolResults(device.device, queries_, frame.slot * kTimestamps, kTimestamps, sizeof ticks,
+                                      ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
     return;
   const uint64_t mask = device.timestamp_bits >= 64 ? ~uint64_t(0) : (uint64_t(1) << device.timestamp_bits) - 1;
   for (uint32_t stage = 0; stage < FLK_STAGE_COUNT; ++stage) {
     if (stage == FLK_STAGE_SHADOW && !frame.plan.shadow_size) continue;
-    latest_.milliseconds[stage] = double((ticks[stage + 1] - ticks[stage]) & mask) * double(device.limits.timestampPeriod) * 1e-6;
+    latest_.milliseconds[stage] =
+        double((ticks[stage + 1] - ticks[stage]) & mask) * double(device.limits.timestampPeriod) * 1e-6;
   }
 }
 
@@ -80,7 +83,8 @@ FlkResult View::statistics(uint64_t completed, FlkStatistics& statistics) {
 
 void View::freeRetired(uint64_t completed) {
   for (Retired& retired : retired_)
-    if (retired.last_frame <= completed) context_.device.destroy(retired.buffer), context_.device.destroy(retired.image);
+    if (retired.last_frame <= completed)
+      context_.device.destroy(retired.buffer), context_.device.destroy(retired.image);
   std::erase_if(retired_, [&](const Retired& retired) { return retired.last_frame <= completed; });
 }
 
@@ -89,7 +93,8 @@ void View::freeRetired(uint64_t completed) {
 FlkResult View::replace(Buffer& buffer, uint64_t bytes, const char* name) {
   retired_.reserve(retired_.size() + 1);  // before there is something to lose
   Buffer fresh;
-  const VkBufferUsageFlags usage = &buffer == &nodes_ ? VkBufferUsageFlags(VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) : kStorage;
+  const VkBufferUsageFlags usage =
+      &buffer == &nodes_ ? VkBufferUsageFlags(VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) : kStorage;
   const FlkResult result = context_.device.createBuffer(bytes, usage, false, name, fresh);
   if (result != FLK_SUCCESS) return result;
   if (buffer.size) retired_.push_back({buffer, {}, last_number_});
@@ -100,7 +105,8 @@ FlkResult View::replace(Buffer& buffer, uint64_t bytes, const char* name) {
 FlkResult View::ensureMemory(const FramePlan& plan) {
   FlkResult result = FLK_SUCCESS;
   if (!constants_.size) result = replace(constants_, plan.bytes(ResourceId::constants), "constants");
-  if (result == FLK_SUCCESS && !counters_.size) result = replace(counters_, plan.bytes(ResourceId::counters), "counters");
+  if (result == FLK_SUCCESS && !counters_.size)
+    result = replace(counters_, plan.bytes(ResourceId::counters), "counters");
   const uint64_t head_bytes = plan.bytes(ResourceId::heads);
   small_heads_ = heads_.size > 2 * head_bytes ? small_heads_ + 1 : 0;
   if (result == FLK_SUCCESS && (heads_.size < head_bytes || small_heads_ > kSmallHeadsFrames)) {
@@ -125,14 +131,16 @@ FlkResult View::ensureRing(bool timestamps) {
   Device& device = context_.device;
   const uint32_t count = uint32_t(frames_.size());
   if (!read_back_.size) {
-    const FlkResult result = device.createBuffer(kCountBytes * count, VK_BUFFER_USAGE_TRANSFER_DST_BIT, true, "read-back", read_back_);
+    const FlkResult result =
+        device.createBuffer(kCountBytes * count, VK_BUFFER_USAGE_TRANSFER_DST_BIT, true, "read-back", read_back_);
     if (result != FLK_SUCCESS) return result;
     // A frame that was recorded and never submitted reads as one that counted nothing.
     if (!device.planning()) std::memset(read_back_.memory.mapped, 0, kCountBytes * count);
   }
   if (device.planning()) return FLK_SUCCESS;
   if (!set_pool_) {
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3 * count}, {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 * count},
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3 * count},
+                                          {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2 * count},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, count}};
     VkDescriptorPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
@@ -217,11 +225,13 @@ Frame* View::freeSlot(uint64_t completed) {
 FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned) {
   const Messages& messages = context_.device.messages;
   if (asked.frame_number <= last_number_ || asked.completed_frame >= asked.frame_number) {
-    messages.say(FLK_SEVERITY_ERROR, "FRAME_NUMBER", "frame_number must rise with every plan of a view and exceed completed_frame");
+    messages.say(FLK_SEVERITY_ERROR, "FRAME_NUMBER",
+                 "frame_number must rise with every plan of a view and exceed completed_frame");
     return FLK_ERROR_INVALID_ARGUMENT;
   }
   Camera camera;
-  if (const char* fault = makeCamera(asked.view_from_world, asked.clip_from_view, asked.reversed_depth, asked.target.width, asked.target.height, camera)) {
+  if (const char* fault = makeCamera(asked.view_from_world, asked.clip_from_view, asked.reversed_depth,
+                                     asked.target.width, asked.target.height, camera)) {
     messages.say(FLK_SEVERITY_ERROR, "FRAME_CAMERA", "%s", fault);
     return FLK_ERROR_INVALID_ARGUMENT;
   }
@@ -231,7 +241,9 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   last_completed_ = completed;
   Frame* frame = freeSlot(completed);
   if (!frame) {
-    messages.say(FLK_SEVERITY_ERROR, "FRAMES_IN_FLIGHT", "%zu frames of this view are planned and not completed: wait for one, or create the view with more frames_in_flight",
+    messages.say(FLK_SEVERITY_ERROR, "FRAMES_IN_FLIGHT",
+                 "%zu frames of this view are planned and not completed: wait for one, or create the view with more "
+                 "frames_in_flight",
                  frames_.size());
     return FLK_ERROR_TOO_MANY_FRAMES;
   }
@@ -240,7 +252,8 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   for (uint32_t i = 0; i < asked.hair_count; ++i) hair_facts[i] = hairs[i]->facts();
   LightFacts light_facts[1];
   for (uint32_t i = 0; i < asked.light_count; ++i)
-    light_facts[i] = {asked.lights[i].casts_shadow != 0, asked.lights[i].shadow_size ? asked.lights[i].shadow_size : 1024};
+    light_facts[i] = {asked.lights[i].casts_shadow != 0,
+                      asked.lights[i].shadow_size ? asked.lights[i].shadow_size : 1024};
   FrameFacts facts;
   facts.camera = camera;
   facts.hairs = {hair_facts, asked.hair_count};
@@ -256,16 +269,21 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   pool.capacity = choosePoolCapacity(pool, std::max<uint64_t>(estimateFragments(facts), 1), nodeLimit());
   const FramePlan plan = planFrame(facts, pool.capacity);
   const VkPhysicalDeviceLimits& limits = context_.device.limits;
-  if (!context_.device.planning() && (asked.target.width > std::min(limits.maxFramebufferWidth, limits.maxViewportDimensions[0]) ||
-                                      asked.target.height > std::min(limits.maxFramebufferHeight, limits.maxViewportDimensions[1]) ||
-                                      plan.shadow_size > std::min(limits.maxImageDimension2D, limits.maxFramebufferWidth))) {
-    messages.say(FLK_SEVERITY_ERROR, "DEVICE_LIMIT", "a target of %u x %u or a shadow map of %u exceeds what the device can draw to", asked.target.width,
+  if (!context_.device.planning() &&
+      (asked.target.width > std::min(limits.maxFramebufferWidth, limits.maxViewportDimensions[0]) ||
+       asked.target.height > std::min(limits.maxFramebufferHeight, limits.maxViewportDimensions[1]) ||
+       plan.shadow_size > std::min(limits.maxImageDimension2D, limits.maxFramebufferWidth))) {
+    messages.say(FLK_SEVERITY_ERROR, "DEVICE_LIMIT",
+                 "a target of %u x %u or a shadow map of %u exceeds what the device can draw to", asked.target.width,
                  asked.target.height, plan.shadow_size);
     return FLK_ERROR_LIMIT;
   }
   if (plan.bytes(ResourceId::heads) > context_.device.limits.maxStorageBufferRange) {
-    messages.say(FLK_SEVERITY_ERROR, "HEADS_TOO_LARGE", "hair covers %u x %u pixels, whose list heads need %llu bytes, and the device binds at most %u: draw fewer pixels",
-                 plan.rect.width, plan.rect.height, static_cast<unsigned long long>(plan.bytes(ResourceId::heads)), context_.device.limits.maxStorageBufferRange);
+    messages.say(FLK_SEVERITY_ERROR, "HEADS_TOO_LARGE",
+                 "hair covers %u x %u pixels, whose list heads need %llu bytes, and the device binds at most %u: draw "
+                 "fewer pixels",
+                 plan.rect.width, plan.rect.height, static_cast<unsigned long long>(plan.bytes(ResourceId::heads)),
+                 context_.device.limits.maxStorageBufferRange);
     return FLK_ERROR_LIMIT;
   }
 
@@ -274,7 +292,8 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
     FlkResult result = ensureRing(plan.timestamps);
     if (result == FLK_SUCCESS) result = ensureMemory(plan);
     if (result == FLK_SUCCESS) result = ensureSet(*frame, plan);
-    if (result == FLK_SUCCESS && plan.shadow_size) result = context_.pipelines.get(context_.device, shadowRecipe(plan), shadow);
+    if (result == FLK_SUCCESS && plan.shadow_size)
+      result = context_.pipelines.get(context_.device, shadowRecipe(plan), shadow);
     if (result == FLK_SUCCESS) result = context_.pipelines.get(context_.device, captureRecipe(plan), capture);
     if (result == FLK_SUCCESS) result = context_.pipelines.get(context_.device, resolveRecipe(plan), resolve);
     if (result != FLK_SUCCESS) return result;
@@ -313,7 +332,8 @@ FlkResult View::shadowMap(FlkShadowMap& map) const {
   map.view = latest->shadow_map.view;
   map.size = latest->plan.shadow_size;
   std::copy(latest->texels_from_world.begin(), latest->texels_from_world.end(), map.texels_from_world);
-  map.texels_from_world[12] += map.size * 0.5, map.texels_from_world[13] += map.size * 0.5;  // from the corner, as images are read
+  map.texels_from_world[12] += map.size * 0.5,
+      map.texels_from_world[13] += map.size * 0.5;  // from the corner, as images are read
   map.depth_range = latest->shadow_range;
   map.texel = latest->shadow_texel;
   return FLK_SUCCESS;

@@ -16,8 +16,8 @@ double Camera::pixelsPerMetre(double view_depth) const {
   return std::max(std::abs(scale[0]) * width, std::abs(scale[1]) * height) / (2.0 * w);
 }
 
-const char* makeCamera(const double view_from_world[16], const float clip_from_view[16], bool reversed_depth, uint32_t width,
-                       uint32_t height, Camera& camera) {
+const char* makeCamera(const double view_from_world[16], const float clip_from_view[16], bool reversed_depth,
+                       uint32_t width, uint32_t height, Camera& camera) {
   for (int i = 0; i < 16; ++i) {
     if (!std::isfinite(view_from_world[i])) return "view_from_world holds a value that is not finite";
     if (!std::isfinite(clip_from_view[i])) return "clip_from_view holds a value that is not finite";
@@ -28,7 +28,8 @@ const char* makeCamera(const double view_from_world[16], const float clip_from_v
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j) {
       const double d = v[i * 4] * v[j * 4] + v[i * 4 + 1] * v[j * 4 + 1] + v[i * 4 + 2] * v[j * 4 + 2];
-      if (std::abs(d - (i == j)) > 1e-3) return "view_from_world is not rigid (its columns are not of length 1 and orthogonal)";
+      if (std::abs(d - (i == j)) > 1e-3)
+        return "view_from_world is not rigid (its columns are not of length 1 and orthogonal)";
     }
 
   const float* p = clip_from_view;
@@ -47,10 +48,12 @@ const char* makeCamera(const double view_from_world[16], const float clip_from_v
 
   // The view depth d at which clip depth is the near value n: perspective (-P22 d + P32) / d = n, orthographic -P22 d + P32 = n.
   const double n = reversed_depth ? 1.0 : 0.0;
-  const double near_plane = orthographic ? (camera.depth[1] - n) / camera.depth[0] : camera.depth[1] / (n + camera.depth[0]);
+  const double near_plane =
+      orthographic ? (camera.depth[1] - n) / camera.depth[0] : camera.depth[1] / (n + camera.depth[0]);
   if (!std::isfinite(near_plane)) return "clip_from_view has no near plane (is reversed_depth right?)";
   // An infinite far plane sits where the perspective denominator vanishes; a near plane behind the eye means the other convention.
-  const double far_plane = orthographic ? (camera.depth[1] - (1 - n)) / camera.depth[0] : camera.depth[1] / ((1 - n) + camera.depth[0]);
+  const double far_plane =
+      orthographic ? (camera.depth[1] - (1 - n)) / camera.depth[0] : camera.depth[1] / ((1 - n) + camera.depth[0]);
   if (orthographic && near_plane < 0) return "the near plane of an orthographic clip_from_view lies behind the camera";
   if (orthographic ? !(far_plane > near_plane) : !(near_plane > 0 && (far_plane > near_plane || far_plane < 0)))
     return "the near plane of clip_from_view does not lie before its far plane (is reversed_depth right?)";
@@ -58,7 +61,8 @@ const char* makeCamera(const double view_from_world[16], const float clip_from_v
   return nullptr;
 }
 
-Rect screenRect(const Camera& camera, const Mat4& world_from_box, const Box& box, double margin, double& nearest, double& farthest) {
+Rect screenRect(const Camera& camera, const Mat4& world_from_box, const Box& box, double margin, double& nearest,
+                double& farthest) {
   const Mat4 view = camera.view_from_world * world_from_box;
   nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
   double low[2] = {nearest, nearest}, high[2] = {farthest, farthest};
@@ -72,7 +76,8 @@ Rect screenRect(const Camera& camera, const Mat4& world_from_box, const Box& box
     for (int axis = 0; axis < 2; ++axis) {
       const double size = axis ? camera.height : camera.width;
       for (double sign : {-1.0, 1.0}) {
-        const double clip = (p[axis] + sign * margin) * camera.scale[axis] + (camera.orthographic ? camera.offset[axis] : p[2] * camera.offset[axis]);
+        const double clip = (p[axis] + sign * margin) * camera.scale[axis] +
+                            (camera.orthographic ? camera.offset[axis] : p[2] * camera.offset[axis]);
         const double pixel = (clip / w * 0.5 + 0.5) * size;
         low[axis] = std::min(low[axis], pixel), high[axis] = std::max(high[axis], pixel);
       }
@@ -82,8 +87,10 @@ Rect screenRect(const Camera& camera, const Mat4& world_from_box, const Box& box
   Rect rect{0, 0, camera.width, camera.height};
   if (nearest <= camera.near_plane && !camera.orthographic) return rect;  // projections of its corners do not bound it
   const double width = camera.width, height = camera.height;
-  const double x0 = std::clamp(std::floor(low[0]) - kMarginPixels, 0.0, width), x1 = std::clamp(std::ceil(high[0]) + kMarginPixels, 0.0, width);
-  const double y0 = std::clamp(std::floor(low[1]) - kMarginPixels, 0.0, height), y1 = std::clamp(std::ceil(high[1]) + kMarginPixels, 0.0, height);
+  const double x0 = std::clamp(std::floor(low[0]) - kMarginPixels, 0.0, width),
+               x1 = std::clamp(std::ceil(high[0]) + kMarginPixels, 0.0, width);
+  const double y0 = std::clamp(std::floor(low[1]) - kMarginPixels, 0.0, height),
+               y1 = std::clamp(std::ceil(high[1]) + kMarginPixels, 0.0, height);
   if (!(x1 > x0 && y1 > y0)) return {};
   rect.x = uint32_t(x0), rect.y = uint32_t(y0);
   rect.width = uint32_t(x1 - x0), rect.height = uint32_t(y1 - y0);

@@ -46,7 +46,8 @@ uint64_t estimateFragments(const FrameFacts& facts) {
   double sum = 0;
   for (const HairFacts& hair : facts.hairs) {
     double nearest = 0, farthest = 0;
-    const Rect rect = screenRect(facts.camera, hair.world_from_hair, hair.bounds, kMitreReach * hair.radius, nearest, farthest);
+    const Rect rect =
+        screenRect(facts.camera, hair.world_from_hair, hair.bounds, kMitreReach * hair.radius, nearest, farthest);
     if (!rect.empty()) sum += estimateHair(facts.camera, hair, nearest);
   }
   return uint64_t(std::min(sum, double(kMaxNodes)));
@@ -65,7 +66,8 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity) {
     const HairFacts& hair = facts.hairs[i];
     all_segments += hair.segments;
     double nearest = 0, farthest = 0;
-    const Rect rect = screenRect(facts.camera, hair.world_from_hair, hair.bounds, kMitreReach * hair.radius, nearest, farthest);
+    const Rect rect =
+        screenRect(facts.camera, hair.world_from_hair, hair.bounds, kMitreReach * hair.radius, nearest, farthest);
     if (rect.empty()) continue;
     plan.visible |= uint64_t(1) << i;
     plan.rect = unite(plan.rect, rect);
@@ -105,8 +107,10 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity) {
   const uint64_t tiles = uint64_t((plan.rect.width + 7) / 8) * ((plan.rect.height + 7) / 8);
   plan.passes.add({PassId::resolve, "resolve", {uint32_t((tiles + 127) / 128), 128, 1}, 0});
 
-  plan.resources.add({ResourceId::constants, "constants", sizeof(gpu::FrameConstants), true, "camera, light and materials, for every pass"});
-  plan.resources.add({ResourceId::heads, "heads", uint64_t(plan.rect.width) * plan.rect.height * 4, true, "a list head for each pixel of the hair's rectangle"});
+  plan.resources.add({ResourceId::constants, "constants", sizeof(gpu::FrameConstants), true,
+                      "camera, light and materials, for every pass"});
+  plan.resources.add({ResourceId::heads, "heads", uint64_t(plan.rect.width) * plan.rect.height * 4, true,
+                      "a list head for each pixel of the hair's rectangle"});
   plan.resources.add({ResourceId::nodes, "nodes", node_capacity * kNodeBytes, true, "12 bytes for each fragment"});
   plan.resources.add({ResourceId::counters, "counters", 16, true, "the exact fragment count"});
   plan.resources.add({ResourceId::read_back, "read-back", 16, true, "the count, for sizing the next frame's lists"});

@@ -5,10 +5,10 @@
 namespace forelock {
 namespace {
 
-constexpr double kHeadroom = 1.125;     // what a frame may grow by before nodes are lost
-constexpr double kRoomy = 1.25;         // more than this above the count is given back
+constexpr double kHeadroom = 1.125;  // what a frame may grow by before nodes are lost
+constexpr double kRoomy = 1.25;      // more than this above the count is given back
 constexpr uint32_t kRoomyFrames = 3;
-constexpr uint64_t kGrain = 1024;       // nodes
+constexpr uint64_t kGrain = 1024;  // nodes
 
 }  // namespace
 

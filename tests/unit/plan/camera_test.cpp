@@ -34,7 +34,10 @@ TEST(Camera, FindsTheNearPlaneOfEveryConvention) {
   for (const bool reversed : {false, true})
     for (const double far_plane : {100.0, 0.0}) {
       Camera camera;
-      EXPECT_EQ(makeCamera(kIdentity.data(), perspective(0.5, 1.5, 0.25, far_plane, reversed).m, reversed, 300, 200, camera), nullptr) << reversed << far_plane;
+      EXPECT_EQ(
+          makeCamera(kIdentity.data(), perspective(0.5, 1.5, 0.25, far_plane, reversed).m, reversed, 300, 200, camera),
+          nullptr)
+          << reversed << far_plane;
       EXPECT_NEAR(camera.near_plane, 0.25, 1e-5);
       EXPECT_FALSE(camera.orthographic);
     }
@@ -81,7 +84,8 @@ TEST(ScreenRect, HoldsEveryPointOfTheBox) {
     double nearest = 0, farthest = 0;
     const Rect rect = screenRect(camera, kIdentity, box, 0.01, nearest, farthest);
     for (int corner = 0; corner < 27; ++corner) {
-      const Vec3 p{center[0] + 0.3 * (corner % 3 - 1), center[1] + 0.2 * (corner / 3 % 3 - 1), center[2] + 0.4 * (corner / 9 - 1)};
+      const Vec3 p{center[0] + 0.3 * (corner % 3 - 1), center[1] + 0.2 * (corner / 3 % 3 - 1),
+                   center[2] + 0.4 * (corner / 9 - 1)};
       const double d = -p[2];
       EXPECT_GE(d, nearest);
       EXPECT_LE(d, farthest);

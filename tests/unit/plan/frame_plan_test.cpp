@@ -31,13 +31,15 @@ TEST(FramePlan, ListsExactlyThePassesOfAShadowedFrame) {
   const LightFacts light{true, 512};
   const FramePlan plan = planFrame(someFrame(hair, light), 5000);
   ASSERT_EQ(plan.passes.count, 4u);
-  EXPECT_TRUE(plan.has(PassId::clear) && plan.has(PassId::shadow) && plan.has(PassId::capture) && plan.has(PassId::resolve));
+  EXPECT_TRUE(plan.has(PassId::clear) && plan.has(PassId::shadow) && plan.has(PassId::capture) &&
+              plan.has(PassId::resolve));
   EXPECT_EQ(plan.bytes(ResourceId::shadow_map), 512u * 512u * 4u);
   EXPECT_EQ(plan.bytes(ResourceId::nodes), 5000u * 12u);
   EXPECT_EQ(plan.bytes(ResourceId::heads), uint64_t(plan.rect.width) * plan.rect.height * 4u);
   EXPECT_LT(uint64_t(plan.rect.width) * plan.rect.height, 400u * 300u);  // heads follow the hair, not the screen
-  EXPECT_EQ(plan.transientBytes(), plan.bytes(ResourceId::shadow_map) + plan.bytes(ResourceId::nodes) + plan.bytes(ResourceId::heads) +
-                                       plan.bytes(ResourceId::constants) + plan.bytes(ResourceId::counters) + plan.bytes(ResourceId::read_back));
+  EXPECT_EQ(plan.transientBytes(), plan.bytes(ResourceId::shadow_map) + plan.bytes(ResourceId::nodes) +
+                                       plan.bytes(ResourceId::heads) + plan.bytes(ResourceId::constants) +
+                                       plan.bytes(ResourceId::counters) + plan.bytes(ResourceId::read_back));
 }
 
 TEST(FramePlan, NoShadowingLightMeansNoShadow) {
@@ -91,8 +93,12 @@ TEST(FramePlan, AHairOutOfViewIsNotCapturedButCastsShadow) {
   EXPECT_EQ(plan.visible, 1u);
   EXPECT_EQ(plan.segments, 1000u);
   for (const Pass& pass : plan.passes) {
-    if (pass.id == PassId::capture) { EXPECT_EQ(pass.indices, 6000u); }
-    if (pass.id == PassId::shadow) { EXPECT_EQ(pass.indices, 12000u); }
+    if (pass.id == PassId::capture) {
+      EXPECT_EQ(pass.indices, 6000u);
+    }
+    if (pass.id == PassId::shadow) {
+      EXPECT_EQ(pass.indices, 12000u);
+    }
   }
 }
 

@@ -38,7 +38,8 @@ TEST(PoolCapacity, DoesNotAllocateForASwingingCamera) {
   state.capacity = choosePoolCapacity(state, 1000000, 1u << 26);
   int changes = 0;
   for (int frame = 0; frame < 100; ++frame) {
-    state.last_count = 200000 + (frame % 2) * 20000, state.last_estimate = 1000000 + (frame % 2) * 100000, state.counted = true;
+    state.last_count = 200000 + (frame % 2) * 20000, state.last_estimate = 1000000 + (frame % 2) * 100000,
+    state.counted = true;
     const uint64_t next = choosePoolCapacity(state, 1000000 + ((frame + 1) % 2) * 100000, 1u << 26);
     changes += next != state.capacity;
     state.capacity = next;

@@ -10,19 +10,20 @@
 namespace forelock::samples {
 namespace {
 
-#define HOST_INSTANCE_FUNCTIONS(X)                                                                         \
-  X(vkDestroyInstance)                                                                                     \
-  X(vkEnumeratePhysicalDevices) X(vkGetPhysicalDeviceProperties2) X(vkGetPhysicalDeviceFeatures2)          \
-      X(vkGetPhysicalDeviceQueueFamilyProperties) X(vkGetPhysicalDeviceMemoryProperties) X(vkCreateDevice) \
-          X(vkGetDeviceProcAddr)
-#define HOST_DEVICE_FUNCTIONS(X)                                                                                       \
-  X(vkDestroyDevice)                                                                                                   \
-  X(vkGetDeviceQueue) X(vkCreateCommandPool) X(vkDestroyCommandPool) X(vkAllocateCommandBuffers)                       \
-      X(vkBeginCommandBuffer) X(vkEndCommandBuffer) X(vkResetCommandPool) X(vkQueueSubmit2) X(vkCreateFence)           \
-          X(vkDestroyFence) X(vkWaitForFences) X(vkResetFences) X(vkDeviceWaitIdle) X(vkCreateImage) X(vkDestroyImage) \
-              X(vkCreateImageView) X(vkDestroyImageView) X(vkGetImageMemoryRequirements) X(vkBindImageMemory)          \
-                  X(vkCreateBuffer) X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory)          \
-                      X(vkAllocateMemory) X(vkFreeMemory) X(vkMapMemory) X(vkCmdPipelineBarrier2)                      \
+#define HOST_INSTANCE_FUNCTIONS(X)                                                                              \
+  X(vkDestroyInstance)                                                                                          \
+  X(vkEnumeratePhysicalDevices)                                                                                 \
+  X(vkGetPhysicalDeviceProperties2) X(vkGetPhysicalDeviceFeatures2) X(vkGetPhysicalDeviceQueueFamilyProperties) \
+      X(vkGetPhysicalDeviceMemoryProperties) X(vkCreateDevice) X(vkGetDeviceProcAddr)
+#define HOST_DEVICE_FUNCTIONS(X)                                                                              \
+  X(vkDestroyDevice)                                                                                          \
+  X(vkGetDeviceQueue)                                                                                         \
+  X(vkCreateCommandPool) X(vkDestroyCommandPool) X(vkAllocateCommandBuffers) X(vkBeginCommandBuffer)          \
+      X(vkEndCommandBuffer) X(vkResetCommandPool) X(vkQueueSubmit2) X(vkCreateFence) X(vkDestroyFence)        \
+          X(vkWaitForFences) X(vkResetFences) X(vkDeviceWaitIdle) X(vkCreateImage) X(vkDestroyImage)          \
+              X(vkCreateImageView) X(vkDestroyImageView) X(vkGetImageMemoryRequirements) X(vkBindImageMemory) \
+                  X(vkCreateBuffer) X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) \
+                      X(vkAllocateMemory) X(vkFreeMemory) X(vkMapMemory) X(vkCmdPipelineBarrier2)             \
                           X(vkCmdCopyBufferToImage) X(vkCmdCopyImageToBuffer) X(vkCmdClearColorImage)
 
 struct Functions {
@@ -455,11 +456,9 @@ FlkResult HeadlessHost::createHair(const FlkHairDesc& desc, FlkHair* hair) {
   return result;
 }
 
-FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned) {
-  Impl& i = *impl_;
+void HeadlessHost::fillFrame(FlkFrame& frame) const {
+  const Impl& i = *impl_;
   frame.type = FLK_TYPE_FRAME;
-  frame.frame_number = i.frame + 1;
-  frame.completed_frame = i.frame;
   frame.target = {i.color.image,
                   i.color.view,
                   VK_FORMAT_R16G16B16A16_SFLOAT,
@@ -471,8 +470,7 @@ FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned) 
                    VK_ACCESS_2_TRANSFER_WRITE_BIT},
                   {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT}};
   frame.depth = {};
-  const bool with_depth = !i.depth_values.empty();
-  if (with_depth)
+  if (!i.depth_values.empty())
     frame.depth = {i.depth.image,
                    i.depth.view,
                    VK_FORMAT_D32_SFLOAT,
@@ -481,35 +479,58 @@ FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned) 
                    VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
                    VK_PIPELINE_STAGE_2_COPY_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT};
-  FlkPlan plan = nullptr;
-  const FlkResult result = flkPlanFrame(view, &frame, &plan);
-  if (result != FLK_SUCCESS) return result;
-  i.frame += 1;
+}
 
+bool HeadlessHost::uploadDepth() {
+  Impl& i = *impl_;
+  if (i.depth_values.empty() || !i.depth_changed) return true;
+  const std::size_t pixels = std::size_t(i.width) * i.height;
+  std::memcpy(i.transfer.mapped, i.depth_values.data(), std::min(pixels, i.depth_values.size()) * 4);
+  i.depth_changed = false;
+  return submit([&](VkCommandBuffer) { i.uploadImage(i.depth, kDepthRange, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL); });
+}
+
+FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned) {
+  return renderTogether(view, {&frame, 1}, planned);
+}
+
+FlkResult HeadlessHost::renderTogether(FlkView view, std::span<FlkFrame> frames, FlkPlan* planned) {
+  Impl& i = *impl_;
+  std::vector<FlkPlan> plans;
+  const uint64_t completed = i.frame;
+  for (FlkFrame& frame : frames) {
+    const FlkDepthSource given = frame.depth;
+    fillFrame(frame);
+    if (given.layout == kNoDepth) frame.depth = {};
+    frame.frame_number = i.frame + 1;
+    frame.completed_frame = completed;
+    FlkPlan plan = nullptr;
+    const FlkResult result = flkPlanFrame(view, &frame, &plan);
+    if (result != FLK_SUCCESS) return result;
+    i.frame += 1;
+    plans.push_back(plan);
+  }
   const std::size_t pixels = std::size_t(i.width) * i.height;
   if (!i.ensureTransfer(pixels * 8)) return FLK_ERROR_OUT_OF_DEVICE_MEMORY;
-  if (with_depth && i.depth_changed) {
-    std::memcpy(i.transfer.mapped, i.depth_values.data(), std::min(pixels, i.depth_values.size()) * 4);
-    if (!submit([&](VkCommandBuffer) { i.uploadImage(i.depth, kDepthRange, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL); }))
-      return FLK_ERROR_DEVICE_LOST;
-    i.depth_changed = false;
-  }
+  if (!uploadDepth()) return FLK_ERROR_DEVICE_LOST;
   if (!i.background.empty()) {
     auto* half = static_cast<uint16_t*>(i.transfer.mapped);
     for (std::size_t c = 0; c < std::min(pixels * 4, i.background.size()); ++c) half[c] = floatToHalf(i.background[c]);
   }
   const bool drawn = submit([&](VkCommandBuffer cmd) {
-    if (i.background.empty()) {
-      const VkClearColorValue transparent{};
-      i.transition(i.color.image, kColorRange, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-      i.fn.vkCmdClearColorImage(cmd, i.color.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &transparent, 1,
-                                &kColorRange);
-    } else {
-      i.uploadImage(i.color, kColorRange, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    for (const FlkPlan plan : plans) {
+      if (i.background.empty()) {
+        const VkClearColorValue transparent{};
+        i.transition(i.color.image, kColorRange, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        i.fn.vkCmdClearColorImage(cmd, i.color.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &transparent, 1,
+                                  &kColorRange);
+      } else {
+        i.uploadImage(i.color, kColorRange, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+      }
+      flkCmdRender(cmd, plan);
     }
-    flkCmdRender(cmd, plan);
   });
-  if (planned) *planned = plan;
+  if (planned) *planned = plans.back();
   return drawn ? FLK_SUCCESS : FLK_ERROR_DEVICE_LOST;
 }
 

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,10 @@ public:
   // Fills in target, depth, frame_number and completed_frame, plans, records, submits and waits. The plan stays valid until
   // the view has made frames_in_flight more.
   FlkResult render(FlkView view, FlkFrame& frame, FlkPlan* plan = nullptr);
+  // Several frames of one view in one submission, none completed when the next is planned; depth.layout kNoDepth leaves the
+  // depth source out of a frame. What stays in the target is the last.
+  FlkResult renderTogether(FlkView view, std::span<FlkFrame> frames, FlkPlan* last = nullptr);
+  static constexpr VkImageLayout kNoDepth = VK_IMAGE_LAYOUT_MAX_ENUM;
   FlkResult statistics(FlkView view, FlkStatistics& statistics) const;
 
   std::vector<float> readColor();                               // width x height x RGBA
@@ -56,6 +61,8 @@ public:
 
 private:
   HeadlessHost();
+  void fillFrame(FlkFrame& frame) const;
+  bool uploadDepth();
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

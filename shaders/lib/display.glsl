@@ -27,7 +27,8 @@ vec3 widthColor(float width_px) {
 
 vec3 depthColor(float depth, vec2 range) {
   float x = clamp((depth - range.x) / max(range.y - range.x, 1e-6), 0.0, 1.0);
-  return vec3(mix(0.9, 0.02, x));
+  float near = 1.0 - x;
+  return vec3(0.01 + 0.89 * near * near * near);  // steps of depth look equal after a display's gamma
 }
 
 // The paper's Figure 2: grey 1, blue 8, green 50, red 100 and above.

@@ -203,9 +203,7 @@ void Scene::expose(double mean) {
   }
 }
 
-std::vector<float> Scene::render(FlkFrame frame) {
-  samples::HeadlessHost& h = host();
-  EXPECT_TRUE(h.resize(uint32_t(view_spec.width), uint32_t(view_spec.height)));
+FlkFrame Scene::frame(FlkFrame frame) {
   std::copy(camera.view_from_world, camera.view_from_world + 16, frame.view_from_world);
   for (int i = 0; i < 16; ++i) frame.clip_from_view[i] = float(camera.clip_from_view[i]);
   frame.reversed_depth = view_spec.projection.reversed;
@@ -213,6 +211,13 @@ std::vector<float> Scene::render(FlkFrame frame) {
   frame.hair_count = 1;
   frame.lights = &light_;
   frame.light_count = lit_;
+  return frame;
+}
+
+std::vector<float> Scene::render(FlkFrame frame) {
+  samples::HeadlessHost& h = host();
+  EXPECT_TRUE(h.resize(uint32_t(view_spec.width), uint32_t(view_spec.height)));
+  frame = this->frame(frame);
   for (int attempt = 0; attempt < 2; ++attempt) {  // a list that was too short has grown for the second
     const FlkResult result = h.render(view, frame, &plan);
     EXPECT_EQ(result, FLK_SUCCESS) << flkResultName(result) << " " << (h.messages().empty() ? "" : h.messages().back());

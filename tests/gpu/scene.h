@@ -63,6 +63,9 @@ public:
   // Scales the light until the mean of R_exact over hair pixels is `mean`. Needs a light.
   void expose(double mean);
 
+  const FlkLight& light() const { return light_; }
+  // `frame` with this scene's camera, hair and light; valid as long as the scene.
+  FlkFrame frame(FlkFrame frame);
   // Renders with the frame's method etc.; returns linear RGBA. Fails the test on any error or lost fragment.
   std::vector<float> render(FlkFrame frame = {});
   reference::Image toImage(const std::vector<float>& rgba) const;  // for compare(): a fragment where alpha > 0

@@ -306,5 +306,30 @@ TEST(Strands, OpacityMatchesSupersampling) {
   }
 }
 
+// Frames of one view that overlap on the queue, each asking for something else: synchronization validation sees every hazard
+// between one frame's memory and the next's, and the last picture is that of the same frame alone.
+TEST(FramesInFlight, ThreeInOneSubmissionEachDifferent) {
+  Scene scene(someStrands(), samples::conditionMaterial(samples::HairColor::dark), someView());
+  scene.setLight(samples::kConditionLight, 3, 256);
+  FlkFrame plain{};
+  plain.method = FLK_METHOD_EXACT;
+  const std::vector<float> alone = scene.render(plain);  // also fills in camera, light and hair below
+  const std::size_t pixels = alone.size() / 4;
+  std::vector<float> wall(pixels, 0.999f);
+  for (int round = 0; round < 4; ++round) {
+    host().setDepth(wall);
+    FlkLight small = scene.light(), unshadowed = scene.light();
+    small.shadow_size = round % 2 ? 128 : 512;
+    unshadowed.casts_shadow = 0;
+    FlkFrame frames[3] = {scene.frame(plain), scene.frame(plain), scene.frame(plain)};
+    frames[0].lights = &small, frames[0].method = FLK_METHOD_FORWARD;
+    frames[1].lights = &unshadowed, frames[1].method = FLK_METHOD_CORE_TAIL, frames[1].view_from_world[14] += 0.4;
+    for (int i = 1; i < 3; ++i) frames[i].depth.layout = samples::HeadlessHost::kNoDepth;
+    ASSERT_EQ(host().renderTogether(scene.view, frames), FLK_SUCCESS) << host().messages().back();
+    EXPECT_EQ(host().readColor(), alone);
+  }
+  host().setDepth({});
+}
+
 }  // namespace
 }  // namespace forelock::test

@@ -23,25 +23,18 @@ TEST_P(ExactAt, MatchesReference) {
   Scene scene(strands, samples::conditionMaterial(color), frameStrands(strands, 256, 256));
   scene.setWidthScale(scene.widthScaleFor(width));
   scene.setLight(samples::kConditionLight, 1.0, 1024);
-  scene.expose(samples::conditionMean(color));
+  scene.expose(samples::conditionMean(color), scene.gather());
 
   FlkFrame frame{};
   frame.method = FLK_METHOD_EXACT;
   const reference::Image actual = scene.toImage(scene.render(frame));
   const reference::ShadowMap fed = scene.readShadowMap();
   const reference::ShadowMap own = reference::renderShadowMap(scene.reference_scene, scene.reference_scene.lights[0]);
-  std::size_t covered = 0, off = 0;
-  for (std::size_t i = 0; i < own.depth.size(); ++i) {
-    const bool a = std::isfinite(own.depth[i]), b = std::isfinite(fed.depth[i]);
-    if (!a && !b) continue;
-    ++covered;
-    off += a != b || std::abs(own.depth[i] - fed.depth[i]) > 0.1 * double(scene.material.fibre_spacing);
-  }
   const reference::Image with_fed = scene.referenceImage({}, {fed});
   const reference::Image with_own = scene.referenceImage({}, {own});
   const reference::Difference shading = reference::compare(actual, with_fed),
                               whole = reference::compare(actual, with_own);
-  const double off_percent = 100.0 * double(off) / double(covered);
+  const double off_percent = mapDifference(own, fed, 0.1 * double(scene.material.fibre_spacing));
   std::printf(
       "ROW exact %s %s %.2f px: fed rmse %.3f p99.9 %.3f | own rmse %.3f p99.9 %.3f | map off %.3f %% | mean %.1f / "
       "%.1f | fragments %llu\n",

@@ -58,14 +58,8 @@ TEST(PaperLoad, CoreTailAgainstForward) {
   Scene scene(caseStrands(kAssetCases[0], false), samples::conditionMaterial(HairColor::dark), storedView("198k"));
   scene.setLight(samples::kConditionLight, 1.0, 1024);
   const reference::FragmentLists lists = scene.gather();
-  const std::vector<reference::ShadowMap> own = reference::renderShadowMaps(scene.reference_scene);
+  scene.expose(samples::conditionMean(HairColor::dark), lists);
   reference::ResolveOptions options;
-  const reference::Image unit = reference::resolve(scene.reference_scene, scene.camera, own, lists, options);
-  double sum = 0, pixels = 0;
-  for (const reference::Pixel& p : unit.pixels)
-    if (p.fragments) sum += (p.rgb[0] + p.rgb[1] + p.rgb[2]) / 3, pixels += 1;
-  const double radiance = samples::conditionMean(HairColor::dark) * pixels / sum;
-  scene.setLight(samples::kConditionLight, radiance, 1024);
   const std::vector<reference::ShadowMap> maps = reference::renderShadowMaps(scene.reference_scene);
   options.method = reference::Method::forward;
   const reference::Image forward_reference =
@@ -125,6 +119,7 @@ TEST(PaperLoad, CoreTailAgainstForward) {
   EXPECT_EQ(heads, uint64_t(info.rect[2]) * info.rect[3] * 4);
 }
 
+// Every method at full size and natural width, dark and light, the whole asset; the bounds of exact_test and methods_test.
 TEST(FullSize, EveryAssetAgainstItsReferences) {
   for (const AssetCase& c : kAssetCases) {
     const StrandArrays& strands = caseStrands(c, false);
@@ -136,32 +131,43 @@ TEST(FullSize, EveryAssetAgainstItsReferences) {
     ViewSpec view = paper ? storedView("35k") : frameStrands(strands, 1920, 1200);
     if (std::string(c.name) == "long-wavy")
       view.projection.tan_half_y = 0.75;  // close up it is 27 M fragments: minutes here
-    Scene scene(strands, samples::conditionMaterial(HairColor::dark), view);
-    scene.setLight(samples::kConditionLight, 1.0, 1024);
-    const reference::FragmentLists lists = scene.gather();
-    const std::vector<reference::ShadowMap> unit_maps = reference::renderShadowMaps(scene.reference_scene);
-    reference::ResolveOptions options;
-    const reference::Image unit = reference::resolve(scene.reference_scene, scene.camera, unit_maps, lists, options);
-    double sum = 0, pixels = 0;
-    for (const reference::Pixel& p : unit.pixels)
-      if (p.fragments) sum += (p.rgb[0] + p.rgb[1] + p.rgb[2]) / 3, pixels += 1;
-    scene.setLight(samples::kConditionLight, samples::conditionMean(HairColor::dark) * pixels / sum, 1024);
-    FlkFrame frame{};
-    frame.method = FLK_METHOD_EXACT;
-    const reference::Image actual = scene.toImage(scene.render(frame));
-    const std::vector<reference::ShadowMap> fed{scene.readShadowMap()};
-    const reference::Difference shading =
-        reference::compare(actual, reference::resolve(scene.reference_scene, scene.camera, fed, lists, options));
-    const reference::Difference whole = reference::compare(
-        actual, reference::resolve(scene.reference_scene, scene.camera,
-                                   reference::renderShadowMaps(scene.reference_scene), lists, options));
-    std::printf(
-        "ROW full size %s: fragments %.2f M, pixels %zu, exact fed rmse %.3f p99.9 %.3f | own rmse %.3f p99.9 %.3f\n",
-        c.name, double(scene.statistics.fragments) / 1e6, shading.pixels, shading.rmse, shading.p999, whole.rmse,
-        whole.p999);
-    EXPECT_LE(shading.rmse, 0.5);
-    EXPECT_LE(shading.p999, 3);
-    EXPECT_LE(whole.rmse, 1.0);
+    for (const HairColor color : {HairColor::dark, HairColor::light}) {
+      const double factor = color == HairColor::light ? 2 : 1;
+      Scene scene(strands, samples::conditionMaterial(color), view);
+      scene.setLight(samples::kConditionLight, 1.0, 1024);
+      const reference::FragmentLists lists = scene.gather();
+      scene.expose(samples::conditionMean(color), lists);
+      const auto expected = [&](reference::Method method, const std::vector<reference::ShadowMap>& maps) {
+        reference::ResolveOptions options;
+        options.method = method;
+        return reference::resolve(scene.reference_scene, scene.camera, maps, lists, options);
+      };
+      const std::vector<reference::ShadowMap> own = reference::renderShadowMaps(scene.reference_scene);
+      FlkFrame frame{};
+      frame.method = FLK_METHOD_EXACT;
+      const reference::Image exact = scene.toImage(scene.render(frame));
+      const std::vector<reference::ShadowMap> fed{scene.readShadowMap()};
+      frame.method = FLK_METHOD_FORWARD;
+      const reference::Image forward = scene.toImage(scene.render(frame));
+      frame.method = FLK_METHOD_CORE_TAIL;
+      const reference::Image core_tail = scene.toImage(scene.render(frame));
+      const reference::Difference shading = reference::compare(exact, expected(reference::Method::exact, fed));
+      const reference::Difference whole = reference::compare(exact, expected(reference::Method::exact, own));
+      const double forward_rmse = reference::compare(forward, expected(reference::Method::forward, fed)).rmse;
+      const double core_tail_rmse = reference::compare(core_tail, expected(reference::Method::core_tail, fed)).rmse;
+      const double map_off = mapDifference(own[0], fed[0], 0.1 * double(scene.material.fibre_spacing));
+      std::printf(
+          "ROW full size %s %s: fragments %.2f M, pixels %zu, exact fed rmse %.3f p99.9 %.3f | own rmse %.3f p99.9 "
+          "%.3f | forward rmse %.3f | core_tail rmse %.3f | map off %.3f %%\n",
+          c.name, color == HairColor::dark ? "dark" : "light", double(scene.statistics.fragments) / 1e6, shading.pixels,
+          shading.rmse, shading.p999, whole.rmse, whole.p999, forward_rmse, core_tail_rmse, map_off);
+      EXPECT_LE(shading.rmse, 0.5 * factor);
+      EXPECT_LE(shading.p999, 3 * factor);
+      EXPECT_LE(whole.rmse, 1.0 * factor);
+      EXPECT_LE(forward_rmse, 1.5 * factor);
+      EXPECT_LE(core_tail_rmse, 1.5 * factor);
+      EXPECT_LE(map_off, 0.5);
+    }
   }
 }
 

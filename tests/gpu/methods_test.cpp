@@ -23,7 +23,7 @@ TEST_P(MethodAt, MatchesItsTwin) {
   Scene scene(strands, samples::conditionMaterial(color), frameStrands(strands, 256, 256));
   scene.setWidthScale(scene.widthScaleFor(width));
   scene.setLight(samples::kConditionLight, 1.0, 1024);
-  scene.expose(samples::conditionMean(color));
+  scene.expose(samples::conditionMean(color), scene.gather());
 
   const struct {
     uint32_t method;
@@ -56,7 +56,7 @@ TEST(PaperPayload, MatchesTheReferenceAtOnePixel) {
   Scene scene(strands, samples::conditionMaterial(HairColor::dark), frameStrands(strands, 256, 256));
   scene.setWidthScale(scene.widthScaleFor(1.0));
   scene.setLight(samples::kConditionLight, 1.0, 1024);
-  scene.expose(samples::conditionMean(HairColor::dark));
+  scene.expose(samples::conditionMean(HairColor::dark), scene.gather());
   for (const uint32_t method : {FLK_METHOD_EXACT, FLK_METHOD_FORWARD}) {
     FlkFrame frame{};
     frame.method = method;
@@ -77,7 +77,7 @@ TEST(CoreTail, ErrorFallsWithK) {
   Scene scene(strands, samples::conditionMaterial(HairColor::dark), frameStrands(strands, 256, 256));
   scene.setWidthScale(scene.widthScaleFor(2.0));
   scene.setLight(samples::kConditionLight, 1.0, 1024);
-  scene.expose(samples::conditionMean(HairColor::dark));
+  scene.expose(samples::conditionMean(HairColor::dark), scene.gather());
   FlkFrame frame{};
   frame.method = FLK_METHOD_EXACT;
   const reference::Image exact = scene.toImage(scene.render(frame));

@@ -190,8 +190,9 @@ void Scene::noLight() {
   reference_scene.lights.clear();
 }
 
-void Scene::expose(double mean) {
-  const reference::Image image = referenceImage({}, reference::renderShadowMaps(reference_scene));
+void Scene::expose(double mean, const reference::FragmentLists& lists) {
+  const reference::Image image =
+      reference::resolve(reference_scene, camera, reference::renderShadowMaps(reference_scene), lists, {});
   double sum = 0;
   std::size_t pixels = 0;
   for (const reference::Pixel& p : image.pixels)
@@ -261,6 +262,17 @@ reference::FragmentLists Scene::gather(std::span<const double> host_depth) const
 reference::Image Scene::referenceImage(const reference::ResolveOptions& options,
                                        const std::vector<reference::ShadowMap>& maps) const {
   return reference::resolve(reference_scene, camera, maps, gather(), options);
+}
+
+double mapDifference(const reference::ShadowMap& a, const reference::ShadowMap& b, double tolerance) {
+  std::size_t covered = 0, off = 0;
+  for (std::size_t i = 0; i < a.depth.size(); ++i) {
+    const bool in_a = std::isfinite(a.depth[i]), in_b = std::isfinite(b.depth[i]);
+    if (!in_a && !in_b) continue;
+    ++covered;
+    off += in_a != in_b || std::abs(double(a.depth[i]) - double(b.depth[i])) > tolerance;
+  }
+  return covered ? 100.0 * double(off) / double(covered) : 0;
 }
 
 void writeFailure(const std::string& name, const reference::Image& actual, const reference::Image& expected) {

@@ -60,8 +60,8 @@ public:
   void setWidthScale(float scale);
   // The width scale that makes the thickest strand `width_px` wide at the view's target.
   float widthScaleFor(double width_px) const;
-  // Scales the light until the mean of R_exact over hair pixels is `mean`. Needs a light.
-  void expose(double mean);
+  // Scales the light until the mean of R_exact over hair pixels is `mean`. Needs a light; `lists` as gather() gives them.
+  void expose(double mean, const reference::FragmentLists& lists);
 
   const FlkLight& light() const { return light_; }
   // `frame` with this scene's camera, hair and light; valid as long as the scene.
@@ -72,7 +72,8 @@ public:
   reference::ShadowMap readShadowMap();
 
   reference::FragmentLists gather(std::span<const double> host_depth = {}) const;
-  reference::Image referenceImage(const reference::ResolveOptions& options, const std::vector<reference::ShadowMap>& maps) const;
+  reference::Image referenceImage(const reference::ResolveOptions& options,
+                                  const std::vector<reference::ShadowMap>& maps) const;
 
   reference::Scene reference_scene;
   reference::Camera camera;
@@ -88,6 +89,9 @@ private:
   FlkLight light_{};
   bool lit_ = false;
 };
+
+// Share in percent of the texels that either map covers and that differ by more than `tolerance` (metre).
+double mapDifference(const reference::ShadowMap& a, const reference::ShadowMap& b, double tolerance);
 
 // Both images and their difference beside each other, for a failing test.
 void writeFailure(const std::string& name, const reference::Image& actual, const reference::Image& expected);

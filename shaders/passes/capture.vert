@@ -50,8 +50,8 @@ void main() {
   vec3 d_before = root ? vec3(0.0) : viewDelta(ia - 1, ia), d_after = tip ? vec3(0.0) : viewDelta(ia + 1, ia + 2);
   uint wa = attributes[ia], wb = attributes[ia + 1];
   float radius_max = frame.hairs[hair_slot].radius_max;
-  vec4 at_a = vec4(attributeRadius(wa, radius_max), attributeFraction(wa), 0.0, 0.0);
-  vec4 at_b_end = vec4(attributeRadius(wb, radius_max), attributeFraction(wb), 0.0, 0.0);
+  vec2 at_a = vec2(attributeRadius(wa, radius_max), attributeFraction(wa));
+  vec2 at_b_end = vec2(attributeRadius(wb, radius_max), attributeFraction(wb));
 
   vec3 own = unitOrZero(d);
   vec3 tangent_a = vertexTangent(unitOrZero(d_before), own, own);
@@ -64,7 +64,7 @@ void main() {
     float u = cut_a ? 1.0 - visibleShare(b, -d) : visibleShare(a, d);
     vec3 p = vec3(mix(a.xy, b.xy, u), -frame.near_plane);
     d *= cut_a ? 1.0 - u : u;
-    vec4 cut = mix(at_a, at_b_end, u);
+    vec2 cut = mix(at_a, at_b_end, u);
     vec3 tangent = mix(tangent_a, tangent_b, u);
     if (cut_a) { a = p; at_a = cut; tangent_a = tangent; }
     else { b = p; at_b_end = cut; tangent_b = tangent; }

@@ -1,5 +1,5 @@
 // The condition of every error figure: materials, fibre spacing and how bright the hair is. RMSE scales with brightness, so
-// that a bound without a condition means nothing. docs/methods.md section 7.
+// that a bound without a condition means nothing. docs/methods.md section 8.
 #pragma once
 
 #include "forelock/render.h"

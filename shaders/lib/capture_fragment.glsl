@@ -11,7 +11,17 @@ struct StrandFragment {
   float fraction;  // of the strand's length, 0 at the root
   float width_px;
   vec3 tangent;    // unit, view space, or 0
+  float along;     // parameter of the segment, 0 at a
 };
+
+// Whether a pixel belongs to a strand that is at least a pixel wide (FLK_METHOD_HARD).
+bool insideHard(vec2 center, vec4 axis, vec4 lines, vec4 extent, vec2 t, float l) {
+  vec2 r = center - axis.xy;
+  float y = dot(r, t), h = mix(extent.x, extent.y, clamp(y / l, 0.0, 1.0));
+  // A line of 0 is a strand's own end: it stops there.
+  return abs(dot(r, leftNormal(t))) <= max(h, 0.5) && betweenLines(center, axis.xy, axis.zw, lines.xy, lines.zw) &&
+         (lines.xy != vec2(0.0) || y >= 0.0) && (lines.zw != vec2(0.0) || y < l);
+}
 
 // Coverage is 0 outside the quad. joint: slopes of the lines that end it, share of its opacity.
 StrandFragment strandFragment(vec2 center, vec4 axis, vec4 lines, vec4 extent, vec4 depth, vec3 tangent_a, vec4 tangent_b,
@@ -38,6 +48,7 @@ StrandFragment strandFragment(vec2 center, vec4 axis, vec4 lines, vec4 extent, v
   }
   f.fraction = mix(depth.z, depth.w, u);
   f.tangent = unitOrZero(mix(tangent_a, tangent_b.xyz, u));
+  f.along = u;
   return f;
 }
 

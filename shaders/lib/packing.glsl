@@ -49,6 +49,26 @@ void unpackTangent(uint payload, int coding, out vec3 tangent, out float alpha) 
   }
 }
 
+// Shared-exponent colour: three 9-bit mantissas and a 5-bit exponent, as of GL_EXT_texture_shared_exponent. c in [0, 65408].
+float powerOfTwo(int exponent) { return uintBitsToFloat(uint(exponent + 127) << 23); }  // exact, unlike exp2; [-126, 127]
+
+uint packSharedExponent(vec3 c) {
+  c = clamp(c, vec3(0.0), vec3(65408.0));
+  float largest = max(c.x, max(c.y, c.z));
+  if (!(largest > 3e-8)) return 0u;  // below half a step of the least exponent; also NaN
+  int exponent = max(int(floatBitsToUint(largest) >> 23) - 127 + 1, -15);
+  if (uint(largest * powerOfTwo(9 - exponent) + 0.5) == 512u) ++exponent;
+  uvec3 q = uvec3(c * powerOfTwo(9 - exponent) + 0.5);
+  return q.x | q.y << 9 | q.z << 18 | uint(exponent + 15) << 27;
+}
+
+vec3 unpackSharedExponent(uint word) {
+  return vec3(float(word & 511u), float(word >> 9 & 511u), float(word >> 18 & 511u)) * powerOfTwo(int(word >> 27) - 24);
+}
+
+// Key of FLK_METHOD_HARD: slot and tangent in 13 + 13 bits, which alpha leaves free there.
+uint packHard(vec3 tangent, uint slot) { return octEncode(tangent, 13) | slot << 26; }
+
 uint alphaCodeColor(float alpha, int coding) {
   return coding == FLK_CODING_PAPER ? encodeAlphaLinear(alpha) : encodeAlphaRoot(alpha, 511.0);
 }

@@ -45,18 +45,17 @@ StrandAngles strandAngles(vec3 T, vec3 L, vec3 V, vec2 turn_r, vec2 turn_trt) {
   return s;
 }
 
-vec3 shadeFull(HairConstants hair, vec3 T, vec3 L, vec3 V, vec3 light, vec3 ambient) {
+// What one light adds: diffuse and both lobes. fibre: its colour; light: what arrives.
+vec3 shadeFull(HairConstants hair, vec3 fibre, vec3 T, vec3 L, vec3 V, vec3 light) {
   StrandAngles s = strandAngles(T, L, V, vec2(hair.cos_r, hair.sin_r), vec2(hair.cos_trt, hair.sin_trt));
-  vec3 diffuse = hair.diffuse * hair.color;
-  return light * (diffuse * s.diffuse + hair.specular_r * lobe(s.r.x, s.r.y, hair.exponent_r) +
-                  hair.specular_trt * hair.color * lobe(s.trt.x, s.trt.y, hair.exponent_trt)) +
-         ambient * diffuse;
+  return light * (hair.diffuse * fibre * s.diffuse + hair.specular_r * lobe(s.r.x, s.r.y, hair.exponent_r) +
+                  hair.specular_trt * fibre * lobe(s.trt.x, s.trt.y, hair.exponent_trt));
 }
 
-vec3 shadeLow(HairConstants hair, vec3 T, vec3 L, vec3 light, vec3 ambient) {
+// Diffuse alone.
+vec3 shadeLow(HairConstants hair, vec3 fibre, vec3 T, vec3 L, vec3 light) {
   float sine = isDirection(T) ? min(length(cross(T, L)), 1.0) : 1.0;
-  vec3 diffuse = hair.diffuse * hair.color;
-  return light * diffuse * sine + ambient * diffuse;
+  return light * hair.diffuse * fibre * sine;
 }
 
 #endif

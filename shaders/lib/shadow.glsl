@@ -14,10 +14,11 @@ float shadowBias(vec3 T, vec3 L, float texel) {
   return texel * abs(dot(T, L)) / max(length(cross(T, L)), 0.1);
 }
 
-// `position` in texels from the middle of the map and metre, `range` the metres of a full depth value.
-float shadowTap(texture2D map, ivec2 texel, int size, float depth, float range, float fibres_per_metre, float log2_transmittance) {
+// `position` in texels from the middle of the map and metre, `range` the metres of a full depth value. The map is the square of
+// `size` texels that begins at texel `offset` of the image.
+float shadowTap(texture2D map, ivec2 offset, ivec2 texel, int size, float depth, float range, float fibres_per_metre, float log2_transmittance) {
   if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(size)))) return 1.0;
-  float front = texelFetch(map, texel, 0).r;
+  float front = texelFetch(map, offset + texel, 0).r;
   if (front >= 1.0) return 1.0;  // no hair towards the light
   return fibreTransmittance((depth - front * range) * fibres_per_metre, log2_transmittance);
 }
@@ -28,7 +29,7 @@ ivec2 shadowTexel(vec2 position, int size) {
   return ivec2(floor(clamp(position, vec2(-most), vec2(most)))) + size / 2;
 }
 
-float shadowFull(texture2D map, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance) {
+float shadowFull(texture2D map, ivec2 offset, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance) {
   // exp(-i^2 / 2), i = -2 .. 2, sum 1.
   const float weights[5] = float[5](0.0544886845, 0.2442013422, 0.4026199469, 0.2442013422, 0.0544886845);
   ivec2 texel = shadowTexel(position.xy, size);
@@ -36,12 +37,12 @@ float shadowFull(texture2D map, vec3 position, int size, float bias, float range
   for (int j = -2; j <= 2; ++j)
     for (int i = -2; i <= 2; ++i)
       light += weights[i + 2] * weights[j + 2] *
-               shadowTap(map, texel + ivec2(i, j), size, position.z - bias, range, fibres_per_metre, log2_transmittance);
+               shadowTap(map, offset, texel + ivec2(i, j), size, position.z - bias, range, fibres_per_metre, log2_transmittance);
   return light;
 }
 
-float shadowLow(texture2D map, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance) {
-  return shadowTap(map, shadowTexel(position.xy, size), size, position.z - bias, range, fibres_per_metre, log2_transmittance);
+float shadowLow(texture2D map, ivec2 offset, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance) {
+  return shadowTap(map, offset, shadowTexel(position.xy, size), size, position.z - bias, range, fibres_per_metre, log2_transmittance);
 }
 
 #endif

@@ -34,15 +34,15 @@ const float kCornerSlack = 1.0 / 64.0;
 const float kSteepestSplit = 2.0;
 
 struct QuadEnd {
-  vec2 corner;
-  vec2 line;    // normal of the line that ends the quad, pointing along the strand; 0: no line
-  float slope;  // of that line: how far it leans along the strand per pixel towards the left of a start, the right of an end
+  vec2 middle, arm;  // its two corners are middle - arm, middle + arm
+  vec2 line;         // normal of the line that ends the quad, pointing along the strand; 0: no line
+  float slope;       // of that line: how far it leans along the strand per pixel towards the left of a start, the right of an end
 };
 
-// The end of `own` at a joint, on side -1 or +1. p: the joint; before, after: the segments that meet there, one of them own;
+// The end of `own` at a joint. p: the joint; before, after: the segments that meet there, one of them own;
 // reach: of the two the larger. Where the lines of both ends cross inside the reach the corners do too: both triangles of the
 // quad then cover what lies between the lines, one of them nothing else.
-QuadEnd jointEnd(vec2 p, float side, float reach, FlatSegment before, FlatSegment after, bool own_is_before) {
+QuadEnd jointEnd(vec2 p, float reach, FlatSegment before, FlatSegment after, bool own_is_before) {
   vec2 sum = before.t + after.t;  // the same numbers for both segments: a pixel is in one of them
   float c = 0.5 * dot(sum, sum);  // 1 + cos(theta), with all its digits near a full turn back
   float s = before.t.x * after.t.y - before.t.y * after.t.x;
@@ -54,20 +54,20 @@ QuadEnd jointEnd(vec2 p, float side, float reach, FlatSegment before, FlatSegmen
   // tan(theta / 2) = |s| / c; multiplied out, so that a full turn back needs no guard.
   if (abs(s) <= steepest * c && c > 0.0) {
     end.slope = s / c;
-    end.corner = p + side * reach * (leftNormal(before.t) + leftNormal(after.t)) / c;
+    end.arm = reach * (leftNormal(before.t) + leftNormal(after.t)) / c;
     end.line = sum;
   } else {
     end.slope = sign(s) * steepest;
-    end.corner = p + side * reach * (leftNormal(t) - outward * end.slope * t);
+    end.arm = reach * (leftNormal(t) - outward * end.slope * t);
     end.line = t + outward * end.slope * leftNormal(t);
   }
-  end.corner += outward * kCornerSlack * t;
+  end.middle = p + outward * kCornerSlack * t;
   return end;
 }
 
 // An end without a neighbour, drawn on for `e` past p; cut: the quad ends at p, else coverage fades it out.
-QuadEnd freeEnd(vec2 p, float side, float reach, vec2 t, float outward, float e, bool cut) {
-  return QuadEnd(p + side * reach * leftNormal(t) + outward * (cut ? kCornerSlack : e) * t, cut ? t : vec2(0.0), 0.0);
+QuadEnd freeEnd(vec2 p, float reach, vec2 t, float outward, float e, bool cut) {
+  return QuadEnd(p + outward * (cut ? kCornerSlack : e) * t, reach * leftNormal(t), cut ? t : vec2(0.0), 0.0);
 }
 
 // Points across a segment beside a strand's end where its area is summed.

@@ -1,4 +1,5 @@
-// Descriptor interface of all passes. Set 0 belongs to the view, set 1 to a hair. A pass defines FLK_BIND_... for what it reads.
+// Descriptor interface of all passes: one set, the view's; what grows with the scene is reached by address, because a storage
+// buffer binding may be limited to 128 MiB. A pass defines FLK_BIND_... for what it reads.
 #ifndef FORELOCK_PASSES_BINDINGS
 #define FORELOCK_PASSES_BINDINGS
 #extension GL_EXT_scalar_block_layout : require
@@ -6,12 +7,15 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "../shared/frame.h"
 #include "../shared/hair.h"
+#include "../shared/light.h"
 
 layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { FrameConstants frame; };
 #ifdef FLK_BIND_LISTS
+// Heads; for FLK_METHOD_HARD depths, payloads and (with colours) colours of the nearest fragments, plane after plane.
 layout(set = 0, binding = 1, scalar) buffer HeadBuffer { uint heads[]; };
-layout(set = 0, binding = 2, scalar) buffer CounterBuffer { uint fragment_count; uint unused_counters[3]; };
+layout(set = 0, binding = 2, scalar) buffer CounterBuffer { uint counters[FLK_COUNTER_WORDS]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer NodePool { uint words[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AggregatePool { uint words[]; };
 #endif
 #ifdef FLK_BIND_DEPTH
 layout(set = 0, binding = 3) uniform texture2D host_depth;
@@ -22,11 +26,27 @@ layout(set = 0, binding = 4) uniform texture2D shadow_map;
 #ifdef FLK_BIND_TARGET
 layout(set = 0, binding = 5, rgba16f) uniform image2D target;
 #endif
+#ifdef FLK_BIND_HOST_LIGHT
+layout(set = 0, binding = 6) uniform texture2DArray host_shadow_maps;
+layout(set = 0, binding = 7) uniform texture2DArray host_visibility;
+#endif
+#ifdef FLK_BIND_SHADOW_STORE
+layout(set = 0, binding = 8, r32ui) uniform uimage2D shadow_store;
+#endif
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightList { LightConstants at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FaceList { FaceConstants at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer WordList { uint at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PositionList { vec3 at[]; };
+
 #ifdef FLK_BIND_HAIR
-layout(set = 1, binding = 0, scalar) readonly buffer PositionBuffer { vec3 positions[]; };
-layout(set = 1, binding = 1, scalar) readonly buffer AttributeBuffer { uint attributes[]; };
-layout(set = 1, binding = 2, scalar) readonly buffer SegmentBuffer { uint segments[]; };
-layout(push_constant) uniform PushConstants { uint hair_slot; };
+layout(push_constant, scalar) uniform PushConstants {
+  uint hair_slot;
+  uint segment_count;     // of a dispatch, from `first_segment`
+  uint first_segment;
+  uint face;              // of a shadow pass
+  mat4x3 map_from_hair;   // of a shadow pass
+};
 #endif
 
 #endif

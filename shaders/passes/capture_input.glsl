@@ -1,7 +1,6 @@
-// What capture.vert hands to every capture fragment shader. Included after bindings.glsl.
+// What capture.vert hands to every capture fragment shader, as captureQuad() of capture_fragment.glsl wants it.
 #ifndef FORELOCK_PASSES_CAPTURE_INPUT
 #define FORELOCK_PASSES_CAPTURE_INPUT
-#include "../lib/capture_fragment.glsl"
 
 layout(location = 0) flat in vec4 in_axis;
 layout(location = 1) flat in vec4 in_lines;
@@ -11,10 +10,12 @@ layout(location = 4) flat in vec4 in_tangent_a;
 layout(location = 5) flat in vec4 in_tangent_b;
 layout(location = 6) flat in vec2 in_direction;
 layout(location = 7) flat in vec3 in_joint;
+layout(location = 8) flat in vec3 in_color_a;
+layout(location = 9) flat in vec3 in_color_b;
 
-StrandFragment fragmentHere() {
-  return strandFragment(gl_FragCoord.xy - frame.size * 0.5, in_axis, in_lines, in_extent, in_depth, in_tangent_a.xyz,
-                        in_tangent_b, in_direction, in_joint, frame.orthographic);
+SegmentShape shapeHere() {
+  return SegmentShape(in_axis, in_lines, in_extent, in_depth, in_tangent_a, in_tangent_b, in_direction, in_joint, in_color_a,
+                      in_color_b);
 }
 
 #endif

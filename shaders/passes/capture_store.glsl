@@ -1,28 +1,94 @@
-// One fragment into the list of its pixel (Yang et al. 2010). Included by capture passes after bindings.glsl.
+// Where captured fragments go. Included by capture passes after bindings.glsl.
 #ifndef FORELOCK_PASSES_CAPTURE_STORE
 #define FORELOCK_PASSES_CAPTURE_STORE
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 
-bool behindHostDepth(float depth) {
+layout(constant_id = FLK_SPEC_STORE) const int kStore = FLK_STORE_LISTS;
+layout(constant_id = FLK_SPEC_AGGREGATE) const bool kAggregate = false;
+
+bool behindHostDepth(uvec2 pixel, float depth) {
 #ifdef FLK_BIND_DEPTH
-  return depth > linearDepth(texelFetch(host_depth, ivec2(gl_FragCoord.xy), 0).r, frame.proj_depth, frame.orthographic);
+  return depth > linearDepth(texelFetch(host_depth, ivec2(pixel), 0).r, frame.proj_depth, frame.orthographic);
 #else
   return false;
 #endif
 }
 
-// The head changes only when the node has been stored: a full pool loses the new fragment and no other.
-void storeFragment(float depth, uint payload) {
-  uint index = atomicAdd(fragment_count, 1u);
-  // Held far below 2^32: a count that wrapped would hand out nodes twice.
-  if (index >= FLK_COUNT_SATURATED) atomicExchange(fragment_count, FLK_COUNT_SATURATED);
-  if (index >= frame.node_capacity) return;
-  uvec2 pixel = uvec2(gl_FragCoord.xy) - frame.rect.xy;  // the scissor keeps it inside
-  uint previous = atomicExchange(heads[pixel.y * frame.rect.z + pixel.x], hair_slot << FLK_LINK_SLOT_SHIFT | index);
+// A number of its own for every fragment: one atomic for all lanes that are here together.
+uint countFragment() {
+  uvec4 here = subgroupBallot(true);
+  uint base = 0u;
+  if (subgroupElect()) {
+    base = atomicAdd(counters[0], subgroupBallotBitCount(here));
+    // Held far below 2^32: a count that wrapped would hand out nodes twice.
+    if (base >= FLK_COUNT_SATURATED) atomicExchange(counters[0], FLK_COUNT_SATURATED);
+  }
+  return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(here);
+}
+
+uint pixelIndex(uvec2 pixel) {
+  uvec2 p = pixel - frame.rect.xy;
+  return p.y * frame.rect.z + p.x;
+}
+
+// docs/methods.md section 6, "Overflow". What is held is never wrapped: an optical depth beyond 32768 lets nothing through.
+void aggregateFragment(uint index, float depth, float alpha, vec3 color) {
+  AggregatePool pool = AggregatePool(frame.aggregates);
+  uint base = index * FLK_AGGREGATE_WORDS;
+  float tau = min(-log2(max(1.0 - alpha, 1.0 / 8192.0)), FLK_TAU_MOST);
+  if (pool.words[base] >= FLK_TAU_SATURATED) return;
+#if defined(FLK_CAPTURE_FORWARD) || defined(FLK_CAPTURE_DISPLAY)
+  uvec3 weighted = uvec3(tau * FLK_TAU_COLOR_STEPS * clamp(color / frame.color_range, 0.0, 1.0) * 255.0 + 0.5);
+  atomicAdd(pool.words[base + 1u], weighted.x);
+  atomicAdd(pool.words[base + 2u], weighted.y);
+  atomicAdd(pool.words[base + 3u], weighted.z);
+#else
+  uint bits = floatBitsToUint(depth);
+  atomicMax(pool.words[base + 1u], ~(bits & ~FLK_SLOT_BITS | hair_slot));
+  atomicMax(pool.words[base + 2u], bits);
+  atomicAdd(pool.words[base + 3u], 1u);
+#endif
+  atomicAdd(pool.words[base], uint(tau * FLK_TAU_STEPS + 0.5));
+}
+
+// Lists of colours have the fibre's colour in them already.
+#if defined(FLK_CAPTURE_FORWARD) || defined(FLK_CAPTURE_DISPLAY)
+const bool kColorWord = false;
+#else
+const bool kColorWord = kColor;
+#endif
+
+// One fragment into the list of its pixel (Yang et al. 2010). The head changes only when the node has been stored: full lists
+// keep what they hold.
+void storeFragment(uvec2 pixel, float depth, uint payload, uint fibre_color, float alpha, vec3 color) {
+  uint index = countFragment();
+  if (kStore == FLK_STORE_COUNT) return;
+  uint at = pixelIndex(pixel);
+  if (index >= frame.node_capacity) {
+    if (kAggregate) aggregateFragment(at, depth, alpha, color);
+    return;
+  }
+  uint previous = atomicExchange(heads[at], hair_slot << FLK_LINK_SLOT_SHIFT | index);
   NodePool nodes = NodePool(frame.node_pool);
-  uint base = index * FLK_NODE_WORDS;
+  uint base = index * (kColorWord ? FLK_NODE_WORDS + 1u : FLK_NODE_WORDS);
   nodes.words[base] = floatBitsToUint(depth);
   nodes.words[base + 1u] = payload;
   nodes.words[base + 2u] = previous;
+  if (kColorWord) nodes.words[base + 3u] = fibre_color;
+}
+
+// FLK_METHOD_HARD, in two passes over the strands: the least depth of a pixel, then the least key at that depth. No order of
+// arrival shows.
+void storeHard(uvec2 pixel, float depth, uint key, uint fibre_color) {
+  uint at = pixelIndex(pixel), plane = frame.rect.z * frame.rect.w, bits = floatBitsToUint(depth);
+  if (kStore == FLK_STORE_HARD_DEPTH) {
+    countFragment();
+    atomicMin(heads[at], bits);
+  } else if (heads[at] == bits) {
+    atomicMin(heads[plane + at], key);
+    if (kColor) atomicMin(heads[2u * plane + at], fibre_color);
+  }
 }
 
 #endif

@@ -11,4 +11,13 @@ void compositePixel(uvec2 pixel, vec3 color, float transmittance) {
   imageStore(target, p, clamp(result, vec4(-65504.0), vec4(65504.0)));
 }
 
+// Once a pixel with hair, after all its shades.
+#ifdef FORELOCK_PASSES_LIGHT
+void countPixel() {
+  if (!kCountWork) return;
+  atomicAdd(counters[FLK_COUNTER_PIXELS], 1u);
+  addWork();
+}
+#endif
+
 #endif

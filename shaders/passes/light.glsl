@@ -1,26 +1,54 @@
-// The frame's light on a fragment. Included after bindings.glsl; FLK_BIND_SHADOW where the light casts hair shadows.
+// The frame's light on a fragment. Included after bindings.glsl; FLK_BIND_SHADOW where a light casts hair shadows,
+// FLK_BIND_HOST_LIGHT where the host has shadows of its own. What a frame does not have is folded away by constants.
 #ifndef FORELOCK_PASSES_LIGHT
 #define FORELOCK_PASSES_LIGHT
 
-// What all fragments of a pixel share: positions are a line in depth, in view space and so in the shadow map.
+layout(constant_id = FLK_SPEC_LIGHTS) const int kLights = FLK_LIGHTS_SUN;
+layout(constant_id = FLK_SPEC_LIGHT_KINDS) const uint kLightKinds = 1u;
+layout(constant_id = FLK_SPEC_FACES) const uint kFaces = uint(FLK_FACES_ORTHOGRAPHIC);
+layout(constant_id = FLK_SPEC_HOST) const uint kHost = 0u;
+layout(constant_id = FLK_SPEC_AMBIENT) const bool kAmbient = false;
+layout(constant_id = FLK_SPEC_COUNT_WORK) const bool kCountWork = false;
+
+// What this invocation did, for kCountWork.
+uint full_shades = 0u, low_shades = 0u, shadow_taps = 0u;
+
+#ifdef FLK_BIND_LISTS
+void addWork() {
+  if (!kCountWork) return;
+  atomicAdd(counters[FLK_COUNTER_FULL], full_shades);
+  atomicAdd(counters[FLK_COUNTER_LOW], low_shades);
+  uint before = atomicAdd(counters[FLK_COUNTER_TAPS], shadow_taps);
+  if (before + shadow_taps < before) atomicAdd(counters[FLK_COUNTER_TAPS + 1], 1u);
+}
+#endif
+
+// What all fragments of a pixel share: positions are a line in depth, in view space and in a directional light's map.
 struct PixelRay {
+  vec3 origin, step;   // view space, of depth 0, a metre of depth
   vec3 to_eye;         // unit
-  vec3 shadow_origin;  // of depth 0: texels and metre
-  vec3 shadow_step;    // a metre of depth
+  vec3 shadow_origin;  // texels and metre, with FLK_LIGHTS_SUN
+  vec3 shadow_step;
 };
 
 PixelRay pixelRay(vec2 pixel) {
   vec3 at_one = unprojectPixel(pixel, 1.0, frame.proj_scale, frame.proj_offset, frame.orthographic, frame.size);
   bool orthographic = frame.orthographic > 0.5;
-  vec3 origin = orthographic ? vec3(at_one.xy, 0.0) : vec3(0.0);
   PixelRay ray;
+  ray.origin = orthographic ? vec3(at_one.xy, 0.0) : vec3(0.0);
+  ray.step = at_one - ray.origin;
   ray.to_eye = orthographic ? vec3(0.0, 0.0, 1.0) : unitOrZero(-at_one);
-  ray.shadow_origin = frame.texels_from_view * vec4(origin, 1.0);
-  ray.shadow_step = mat3(frame.texels_from_view) * (at_one - origin);
+#ifdef FLK_BIND_SHADOW
+  if (kLights == FLK_LIGHTS_SUN) {
+    mat4x3 map_from_view = FaceList(frame.faces).at[0].map_from_view;
+    ray.shadow_origin = map_from_view * vec4(ray.origin, 1.0);
+    ray.shadow_step = mat3(map_from_view) * ray.step;
+  }
+#endif
   return ray;
 }
 
-// The light as read from the frame: loops over fragments read it once, before they begin.
+// A single sun as read from the frame: loops over fragments read it once, before they begin.
 struct FrameLight {
   vec3 direction, radiance, ambient;
   float texel, range;
@@ -28,28 +56,166 @@ struct FrameLight {
 };
 
 FrameLight frameLight() {
-  return FrameLight(frame.light_direction, frame.light_radiance, frame.ambient, frame.shadow_texel, frame.shadow_range,
-                    int(frame.shadow_size));
+  FrameLight light = FrameLight(vec3(0.0, 0.0, 1.0), vec3(0.0), frame.ambient, 0.0, 1.0, 0);
+  if (kLights == FLK_LIGHTS_SUN) {
+    light.direction = LightList(frame.lights).at[0].place;
+    light.radiance = LightList(frame.lights).at[0].radiance;
+#ifdef FLK_BIND_SHADOW
+    light.texel = FaceList(frame.faces).at[0].texel;
+    light.range = FaceList(frame.faces).at[0].range;
+    light.size = int(FaceList(frame.faces).at[0].size);
+#endif
+  }
+  return light;
 }
 
-vec3 radianceFull(HairConstants hair, FrameLight source, vec3 tangent, PixelRay ray, float depth) {
+// docs/methods.md section 5, "Ambient".
+vec3 ambientOn(vec3 tangent, vec3 constant) {
+  if (!kAmbient) return constant;
+  vec3 t = isDirection(tangent) ? tangent : vec3(0.0);
+  return max(constant + t.x * t.x * frame.ambient_squares[0] + t.y * t.y * frame.ambient_squares[1] +
+                 t.z * t.z * frame.ambient_squares[2] + t.x * t.y * frame.ambient_squares[3] +
+                 t.x * t.z * frame.ambient_squares[4] + t.y * t.z * frame.ambient_squares[5], vec3(0.0));
+}
+
+#ifdef FLK_BIND_SHADOW
+// The share of a light that hair lets through to a point of view space.
+float hairShadow(HairConstants hair, LightConstants source, vec3 position, vec3 tangent, vec3 L, bool full) {
+  if (kFaces == 0u || source.face_count == 0u) return 1.0;
+  uint index = source.first_face;
+  if ((kFaces & FLK_FACES_CUBE) != 0u && source.face_count > 1u) {
+    float most = -1.0;
+    for (uint i = 0u; i < source.face_count; ++i) {
+      mat4x3 m = FaceList(frame.faces).at[source.first_face + i].map_from_view;
+      float along = (m * vec4(position, 1.0)).z;
+      if (along > most) most = along, index = source.first_face + i;
+    }
+  }
+  FaceConstants face = FaceList(frame.faces).at[index];
+  vec3 at = face.map_from_view * vec4(position, 1.0);
+  float texel = face.texel;
+  if ((kFaces & ~uint(FLK_FACES_ORTHOGRAPHIC)) != 0u && face.focal > 0.0) {
+    if (!(at.z >= face.near)) return 1.0;  // also NaN; near > 0
+    texel *= at.z;
+    at = vec3(at.xy / at.z * face.focal, length(at));
+  }
+  if (kCountWork) shadow_taps += full ? 25u : 1u;
+  float bias = shadowBias(tangent, L, texel);
+  return full ? shadowFull(shadow_map, ivec2(face.offset), at, int(face.size), bias, face.range, hair.fibres_per_metre, hair.shadow_log2)
+              : shadowLow(shadow_map, ivec2(face.offset), at, int(face.size), bias, face.range, hair.fibres_per_metre, hair.shadow_log2);
+}
+#endif
+
+#ifdef FLK_BIND_HOST_LIGHT
+float hostTap(LightConstants source, ivec2 texel, float z) {
+  vec2 center = vec2(texel) + 0.5;
+  if (any(lessThan(center, source.host_rect.xy)) || any(greaterThan(center, source.host_rect.zw))) return 1.0;
+  ivec2 size = textureSize(host_shadow_maps, 0).xy;
+  int layers = textureSize(host_shadow_maps, 0).z;
+  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size)) || int(source.host_layer) >= layers) return 1.0;
+  float held = texelFetch(host_shadow_maps, ivec3(texel, source.host_layer), 0).r;
+  return source.host_sign * z <= source.host_sign * held + source.host_bias ? 1.0 : 0.0;
+}
+
+// The share of a light that the scene lets through: docs/methods.md section 4, "Host shadows".
+float hostLight(LightConstants source, vec3 position, uvec2 pixel) {
+  float lit = 1.0;
+  if ((kHost & FLK_HOST_MAP) != 0u && source.host_layer != FLK_NO_LAYER) {
+    vec4 p = source.host_from_view * vec4(position, 1.0);
+    if (p.w > 0.0) {
+      vec3 at = clamp(p.xyz / p.w, vec3(-1e6), vec3(1e6));  // must not wrap when it becomes an integer
+      vec2 corner = floor(at.xy - 0.5), share = at.xy - 0.5 - corner;
+      ivec2 texel = ivec2(corner);
+      lit = mix(mix(hostTap(source, texel, at.z), hostTap(source, texel + ivec2(1, 0), at.z), share.x),
+                mix(hostTap(source, texel + ivec2(0, 1), at.z), hostTap(source, texel + ivec2(1, 1), at.z), share.x), share.y);
+    }
+  }
+  if ((kHost & FLK_HOST_VISIBILITY) != 0u && source.visibility_layer != FLK_NO_LAYER) {
+    ivec3 size = textureSize(host_visibility, 0);
+    if (all(lessThan(ivec3(pixel, source.visibility_layer), size)))
+      lit *= clamp(texelFetch(host_visibility, ivec3(pixel, source.visibility_layer), 0).r, 0.0, 1.0);
+  }
+  return lit;
+}
+#endif
+
+// One of many lights on a point of view space: docs/methods.md section 4.
+vec3 radianceOfLight(uint index, HairConstants hair, vec3 fibre, vec3 tangent, vec3 position, vec3 to_eye, uvec2 pixel, bool full) {
+  LightConstants source = LightList(frame.lights).at[index];
+  vec3 L = source.place;
+  float arriving = 1.0;
+  if ((kLightKinds & ~1u) != 0u && source.kind != FLK_KIND_DIRECTIONAL) {
+    vec3 way = source.place - position;
+    float square = dot(way, way);
+    L = unitOrZero(way);
+    float share = square * source.inverse_range * source.inverse_range;
+    float window = clamp(1.0 - share * share, 0.0, 1.0);
+    arriving = window * window / max(square, source.source_radius_squared);
+    if ((kLightKinds & 1u << FLK_KIND_SPOT) != 0u && source.kind == FLK_KIND_SPOT) {
+      float cone = clamp((-dot(L, source.axis) - source.cos_outer) * source.inverse_cone, 0.0, 1.0);
+      arriving *= cone * cone;
+    }
+  }
+  if (!(arriving > 0.0)) return vec3(0.0);  // also NaN: infinitely far
+#ifdef FLK_BIND_HOST_LIGHT
+  arriving *= hostLight(source, position, pixel);
+#endif
+#ifdef FLK_BIND_SHADOW
+  arriving *= hairShadow(hair, source, position, tangent, L, full);
+#endif
+  vec3 light = arriving * source.radiance;
+  return full ? shadeFull(hair, fibre, tangent, L, to_eye, light) : shadeLow(hair, fibre, tangent, L, light);
+}
+
+vec3 radianceOfLights(HairConstants hair, vec3 fibre, vec3 tangent, PixelRay ray, float depth, uvec2 pixel, bool full) {
+  vec3 position = ray.origin + depth * ray.step;
+  vec3 sum = vec3(0.0);
+  if (kLights == FLK_LIGHTS_ALL) {
+    for (uint i = 0u; i < frame.light_count; ++i)
+      sum += radianceOfLight(i, hair, fibre, tangent, position, ray.to_eye, pixel, full);
+  } else if (kLights == FLK_LIGHTS_TILES) {
+    // The host's tiles cover the target; one that does not is not read past its end.
+    uvec2 tile = min(pixel / frame.light_tile_size, uvec2(frame.light_tiles_x, frame.light_tiles_y) - 1u);
+    uint stride = frame.light_tiles_x * frame.light_tiles_y, word = tile.y * frame.light_tiles_x + tile.x;
+    for (uint layer = 0u; layer * 32u < frame.light_count; ++layer) {
+      uint mask = WordList(frame.light_tiles).at[layer * stride + word];
+      while (mask != 0u) {
+        uint i = layer * 32u + uint(findLSB(mask));
+        mask &= mask - 1u;
+        if (i < frame.light_count) sum += radianceOfLight(i, hair, fibre, tangent, position, ray.to_eye, pixel, full);
+      }
+    }
+  }
+  return sum;
+}
+
+// fibre: its colour.
+vec3 radianceFull(HairConstants hair, vec3 fibre, FrameLight source, vec3 tangent, PixelRay ray, float depth, uvec2 pixel) {
+  if (kCountWork) full_shades += 1u;
+  vec3 around = ambientOn(tangent, source.ambient) * hair.diffuse * fibre;
+  if (kLights != FLK_LIGHTS_SUN) return around + radianceOfLights(hair, fibre, tangent, ray, depth, pixel, true);
   float light = 1.0;
 #ifdef FLK_BIND_SHADOW
-  light = shadowFull(shadow_map, ray.shadow_origin + depth * ray.shadow_step, source.size,
+  if (kCountWork) shadow_taps += 25u;
+  light = shadowFull(shadow_map, ivec2(0), ray.shadow_origin + depth * ray.shadow_step, source.size,
                      shadowBias(tangent, source.direction, source.texel), source.range,
                      hair.fibres_per_metre, hair.shadow_log2);
 #endif
-  return shadeFull(hair, tangent, source.direction, ray.to_eye, light * source.radiance, source.ambient);
+  return around + shadeFull(hair, fibre, tangent, source.direction, ray.to_eye, light * source.radiance);
 }
 
-vec3 radianceLow(HairConstants hair, FrameLight source, vec3 tangent, PixelRay ray, float depth) {
+vec3 radianceLow(HairConstants hair, vec3 fibre, FrameLight source, vec3 tangent, PixelRay ray, float depth, uvec2 pixel) {
+  if (kCountWork) low_shades += 1u;
+  vec3 around = ambientOn(tangent, source.ambient) * hair.diffuse * fibre;
+  if (kLights != FLK_LIGHTS_SUN) return around + radianceOfLights(hair, fibre, tangent, ray, depth, pixel, false);
   float light = 1.0;
 #ifdef FLK_BIND_SHADOW
-  light = shadowLow(shadow_map, ray.shadow_origin + depth * ray.shadow_step, source.size,
+  if (kCountWork) shadow_taps += 1u;
+  light = shadowLow(shadow_map, ivec2(0), ray.shadow_origin + depth * ray.shadow_step, source.size,
                     shadowBias(tangent, source.direction, source.texel), source.range,
                     hair.fibres_per_metre, hair.shadow_log2);
 #endif
-  return shadeLow(hair, tangent, source.direction, light * source.radiance, source.ambient);
+  return around + shadeLow(hair, fibre, tangent, source.direction, light * source.radiance);
 }
 
 #endif

@@ -5,47 +5,42 @@
 #define FLK_BIND_LISTS
 #define FLK_BIND_TARGET
 #include "bindings.glsl"
-#include "../lib/packing.glsl"
 #include "../lib/projection.glsl"
 #include "../lib/shading.glsl"
 #include "../lib/shadow.glsl"
-#include "../lib/order.glsl"
+#include "list.glsl"
 #include "light.glsl"
+#include "shade_key.glsl"
 #include "tile_order.glsl"
 #include "composite.glsl"
 
-layout(constant_id = FLK_SPEC_PAYLOAD) const int kPayload = 0;
-layout(constant_id = FLK_SPEC_ONE_HAIR) const bool kOneHair = false;
 const uint kBatch = 24;
 
 void main() {
   uvec2 pixel;
   if (!tilePixel(frame.rect.zw, pixel)) return;
-  uint head = heads[pixel.y * frame.rect.z + pixel.x];
-  if (head == FLK_LINK_END) return;
-  PixelRay ray = pixelRay(vec2(pixel + frame.rect.xy) + 0.5);
-  NodePool nodes = NodePool(frame.node_pool);
-  HairConstants only = frame.hairs[0];
-  FrameLight source = frameLight();
+  uint index = pixel.y * frame.rect.z + pixel.x;
+  uint head = heads[index];
+  Aggregate rest = readAggregate(index, false);
+  if (head == FLK_LINK_END && !(rest.tau > 0.0)) return;
+  ShadeSource source = shadeSource(pixel + frame.rect.xy);
 
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;
-  Key last = Key(0u, 0u, 0u);  // the farthest key blended; no key is 0, depths are positive
+  Key last = Key(0u, 0u, 0u, 0u);  // the farthest key blended; no key is 0, depths are positive
   uint last_blended = 0u;  // how many fragments of exactly that key
-  bool more = true;
+  bool more = head != FLK_LINK_END;
   while (more) {
     Key batch[kBatch];
     for (uint i = 0; i < kBatch; ++i) batch[i] = keyNone();
     uint farther = 0u, equal = 0u;
     for (uint link = head; link != FLK_LINK_END;) {
-      uint base = (link & FLK_LINK_INDEX_MASK) * FLK_NODE_WORDS;
-      Key key = Key(nodes.words[base], nodes.words[base + 1u], kOneHair ? 0u : link >> FLK_LINK_SLOT_SHIFT);
-      link = nodes.words[base + 2u];
-      if (keyEqual(key, last, kOneHair)) ++equal;
-      if (!keyLess(last, key, kOneHair)) continue;
+      Key key = readNode(link);
+      if (keyEqual(key, last, kOneHair, kColor)) ++equal;
+      if (!keyLess(last, key, kOneHair, kColor)) continue;
       ++farther;
-      if (!keyLess(key, batch[kBatch - 1u], kOneHair)) continue;
-      for (uint i = 0; i < kBatch; ++i) keySort(batch[i], key, kOneHair);
+      if (!keyLess(key, batch[kBatch - 1u], kOneHair, kColor)) continue;
+      for (uint i = 0; i < kBatch; ++i) keySort(batch[i], key, kOneHair, kColor);
     }
     // Fragments equal to the last of the batch before may have fallen out of it: they come first now.
     uint again = equal - min(last_blended, equal);
@@ -54,21 +49,23 @@ void main() {
       Key key = last;
       if (i >= again) {
         key = batch[i - again];
-        last_blended = keyEqual(key, last, kOneHair) ? last_blended + 1u : 1u;
+        last_blended = keyEqual(key, last, kOneHair, kColor) ? last_blended + 1u : 1u;
         last = key;
       } else {
         ++last_blended;
       }
-      vec3 tangent;
       float alpha;
-      unpackTangent(key.payload, kPayload, tangent, alpha);
-      HairConstants hair = only;
-      if (!kOneHair) hair = frame.hairs[key.slot];
-      vec3 color = radianceFull(hair, source, tangent, ray, uintBitsToFloat(key.depth));
+      vec3 color = shadeKey(key, source, true, alpha);
       color_sum += transmittance * alpha * color;
       transmittance *= 1.0 - alpha;
     }
     more = farther > kBatch;
   }
+  if (rest.tau > 0.0) {  // behind all that the list holds
+    float through = exp2(-min(rest.tau, 126.0));
+    color_sum += transmittance * (1.0 - through) * shadeAggregate(rest, source);
+    transmittance *= through;
+  }
   compositePixel(pixel, color_sum, transmittance);
+  countPixel();
 }

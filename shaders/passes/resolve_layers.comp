@@ -5,16 +5,15 @@
 #define FLK_BIND_TARGET
 #include "bindings.glsl"
 #include "../lib/display.glsl"
+#include "list.glsl"
 #include "tile_order.glsl"
 #include "composite.glsl"
 
 void main() {
   uvec2 pixel;
   if (!tilePixel(frame.rect.zw, pixel)) return;
-  NodePool nodes = NodePool(frame.node_pool);
-  uint count = 0u;
-  for (uint link = heads[pixel.y * frame.rect.z + pixel.x]; link != FLK_LINK_END;
-       link = nodes.words[(link & FLK_LINK_INDEX_MASK) * FLK_NODE_WORDS + 2u])
-    ++count;
+  uint index = pixel.y * frame.rect.z + pixel.x;
+  uint count = kAggregate ? AggregatePool(frame.aggregates).words[index * FLK_AGGREGATE_WORDS + 3u] : 0u;
+  for (uint link = heads[index]; link != FLK_LINK_END; readNode(link)) ++count;
   if (count > 0u) compositePixel(pixel, layersColor(count), 0.0);
 }

@@ -1,19 +1,19 @@
-// Linear depth of the strand's axis at this texel.
+// Distance of the strand's axis from the light at this texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define FLK_BIND_HAIR
 #include "bindings.glsl"
-#include "../lib/strand_quad.glsl"
+#include "map_segment.glsl"
 
 layout(location = 0) flat in vec4 in_axis;
 layout(location = 1) flat in vec4 in_lines;
 layout(location = 2) flat in vec4 in_depth;
 layout(location = 3) flat in vec3 in_direction;
+layout(location = 4) flat in vec3 in_face;
 
 void main() {
-  vec2 center = gl_FragCoord.xy - float(frame.shadow_size) * 0.5;
-  vec2 r = center - in_axis.xy;
-  float v = clamp(dot(r, in_direction.xy) / in_direction.z, 0.0, 1.0);
-  float x = dot(r, leftNormal(in_direction.xy));
-  if (abs(x) > mix(in_depth.z, in_depth.w, v) || !betweenLines(center, in_axis.xy, in_axis.zw, in_lines.xy, in_lines.zw)) discard;
-  gl_FragDepth = clamp(mix(in_depth.x, in_depth.y, v) / frame.shadow_range, 0.0, 1.0);
+  vec2 corner = vec2(FaceList(frame.faces).at[face].offset);
+  float value;
+  if (!mapDepth(MapShape(in_axis, in_lines, in_depth, in_direction, in_face), gl_FragCoord.xy - corner - in_face.z, value)) discard;
+  gl_FragDepth = value;
 }

@@ -7,9 +7,9 @@
 namespace forelock::gpu {
 #endif
 
+// Addresses (uvec2) name buffers of shared/hair.h.
 struct HairConstants {
   mat4x3 view_from_hair;
-  mat4x3 texels_from_hair;  // shadow map: x, y in texels from its middle, z in metre
   float radius_max;         // metre in view space, material's scale included
   float opacity_root;
   float opacity_tip;
@@ -23,6 +23,18 @@ struct HairConstants {
   float fibres_per_metre;
   float cos_r, sin_r;       // of 2 x tilt
   float cos_trt, sin_trt;   // of 3 x tilt
+  vec3 tip_color;
+  float tip_blend;
+  uvec2 positions, attributes, segments;
+  uvec2 colors;             // 0: none
+};
+
+struct OpacityModifier {
+  uint kind;                // FLK_MODIFIER_...
+  vec2 center;              // lens: pixel
+  float start;              // fade: metre; lens: radius
+  float inverse_ramp;       // 1 / (end - start), 1 / feather
+  float inside;             // lens
 };
 
 struct FrameConstants {
@@ -35,22 +47,27 @@ struct FrameConstants {
   vec2 pixels_per_unit; // |P00| W / 2, |P11| H / 2
   uvec4 rect;           // x, y, width, height in pixels: where heads exist
   uvec2 node_pool;      // device address: a storage buffer binding may be limited to 128 MiB
+  uvec2 aggregates;     // device address of FLK_AGGREGATE_WORDS a pixel of the rectangle
   uint node_capacity;
   float color_range;    // of 8-bit colours: the radiance that codes as 1
+  float tail_range;     // the brightest low shade, for the deterministic tail
+  uint light_count;
+  uvec2 lights;         // device address of LightConstants
+  uvec2 faces;          // device address of FaceConstants
+  uvec2 light_tiles;    // device address of the host's masks
+  uint light_tile_size; // pixels
+  uint light_tiles_x, light_tiles_y;
   vec2 depth_range;     // nearest and farthest hair (metre), for FLK_DISPLAY_DEPTH
-  vec3 light_direction; // view space, to the light
-  float shadow_texel;   // metre
-  vec3 light_radiance;
-  float shadow_range;   // metre of depth in the map
-  vec3 ambient;
-  uint shadow_size;     // texels a side
-  mat4x3 texels_from_view;
+  vec3 ambient;         // what does not depend on the tangent
+  vec3 ambient_squares[6]; // of tangent products xx, yy, zz, xy, xz, yz
+  OpacityModifier modifiers[FLK_MODIFIER_COUNT];
   HairConstants hairs[FLK_MAX_HAIRS];
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(HairConstants) == 164);
-static_assert(sizeof(FrameConstants) == 184 + FLK_MAX_HAIRS * sizeof(HairConstants));
+static_assert(sizeof(OpacityModifier) == 24);
+static_assert(sizeof(FrameConstants) == 320 + FLK_MAX_HAIRS * sizeof(HairConstants));
 }  // namespace forelock::gpu
 #endif
 #endif

@@ -1,22 +1,76 @@
-// Fragment lists: one head a pixel of the hair's rectangle, nodes of three words in one pool.
+// Fragment lists: one head a pixel of the hair's rectangle, nodes of three or four words in one pool.
 #ifndef FORELOCK_SHARED_NODE_H
 #define FORELOCK_SHARED_NODE_H
 
 // A link names a node and the hair it belongs to: hair slot << 26 | node index.
-#define FLK_NODE_WORDS 3u
+#define FLK_NODE_WORDS 3u  // depth, payload, link; 4 with the fibre's colour
 #define FLK_LINK_SLOT_SHIFT 26u
 #define FLK_LINK_INDEX_MASK 0x03FFFFFFu
 #define FLK_LINK_END 0xFFFFFFFFu
 #define FLK_MAX_HAIRS 63u
 #define FLK_COUNT_SATURATED 0xF0000000u
 
+// Aggregate of a pixel's fragments that found the lists full, all words 0 where there are none. Optical depth tau = -log2(1 - a), at
+// most FLK_TAU_MOST. Of tangents: sum of tau (2^-16), largest ~(depth bits with the slot in the last 6), largest depth bits,
+// count. Of colours: sum of tau (2^-16), sums of tau (2^-6) times colour (1/255 of the range).
+#define FLK_AGGREGATE_WORDS 4u
+#define FLK_TAU_MOST 12.0
+#define FLK_TAU_STEPS 65536.0
+#define FLK_TAU_SATURATED 0x80000000u
+#define FLK_TAU_COLOR_STEPS 64.0
+#define FLK_SLOT_BITS 63u
+
+// Counters: fragments, then what FLK_SPEC_COUNT_WORK counts.
+#define FLK_COUNTER_FULL 1
+#define FLK_COUNTER_LOW 2
+#define FLK_COUNTER_TAPS 3  // low word, high word
+#define FLK_COUNTER_PIXELS 5
+#define FLK_COUNTER_WORDS 6
+
 // Specialisation constants.
-#define FLK_SPEC_PAYLOAD 0  // FLK_PAYLOAD_...
-#define FLK_SPEC_K 1        // fragments shaded fully
-#define FLK_SPEC_K_SORT 2   // fragments sorted
-#define FLK_SPEC_DISPLAY 3  // FLK_DISPLAY_...
-#define FLK_SPEC_ONE_HAIR 4 // 1: the frame has one hair, and keys need no slot
-#define FLK_SPEC_COUNT 5
+#define FLK_SPEC_PAYLOAD 0   // FLK_PAYLOAD_...
+#define FLK_SPEC_K 1         // fragments shaded fully
+#define FLK_SPEC_K_SORT 2    // fragments sorted
+#define FLK_SPEC_DISPLAY 3   // FLK_DISPLAY_...
+#define FLK_SPEC_ONE_HAIR 4  // 1: the frame has one hair, and keys need no slot
+#define FLK_SPEC_STORE 5     // FLK_STORE_...
+#define FLK_SPEC_AGGREGATE 6 // 1: fragments that find the lists full are summed up
+#define FLK_SPEC_TAIL 7      // FLK_TAIL_KIND_...
+#define FLK_SPEC_LIGHTS 8    // FLK_LIGHTS_...
+#define FLK_SPEC_LIGHT_KINDS 9 // bits 1 << FLK_KIND_...
+#define FLK_SPEC_FACES 10    // FLK_FACES_... of hair shadow maps
+#define FLK_SPEC_HOST 11     // FLK_HOST_...
+#define FLK_SPEC_AMBIENT 12  // 1: ambient light depends on the tangent
+#define FLK_SPEC_COLOR 13    // 1: nodes carry the fibre's colour
+#define FLK_SPEC_MODIFIERS 14 // 2 bits for each modifier: its FLK_MODIFIER_...
+#define FLK_SPEC_COUNT_WORK 15 // 1: shades, taps and pixels are counted
+#define FLK_SPEC_COLORS_LISTED 16 // 1: the lists hold colours (output passes)
+#define FLK_SPEC_COUNT 17
+
+#define FLK_STORE_LISTS 0
+#define FLK_STORE_COUNT 1        // nothing is stored
+#define FLK_STORE_HARD_DEPTH 2   // the nearest depth
+#define FLK_STORE_HARD_PAYLOAD 3 // what lies at that depth
+
+#define FLK_TAIL_KIND_LIST 0
+#define FLK_TAIL_KIND_MEAN 1
+#define FLK_TAIL_KIND_NONE 2     // opacity only
+
+#define FLK_LIGHTS_NONE 0
+#define FLK_LIGHTS_SUN 1   // one, directional: read once a pixel
+#define FLK_LIGHTS_ALL 2
+#define FLK_LIGHTS_TILES 3 // those of the tile's mask
+
+#define FLK_FACES_ORTHOGRAPHIC 1
+#define FLK_FACES_PERSPECTIVE 2
+#define FLK_FACES_CUBE 4
+
+#define FLK_HOST_MAP 1
+#define FLK_HOST_VISIBILITY 2
+
+#define FLK_MODIFIER_COUNT 4
+#define FLK_MODIFIER_FADE 1u
+#define FLK_MODIFIER_LENS 2u
 
 // Codings, as in render.h.
 #define FLK_CODING_DEFAULT 0

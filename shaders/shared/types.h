@@ -11,6 +11,7 @@ struct vec3 { float x, y, z; };
 struct vec4 { float x, y, z, w; };
 struct uvec4 { uint x, y, z, w; };
 struct mat4x3 { float m[12]; };  // 4 columns of 3 rows
+struct mat4 { float m[16]; };
 }  // namespace forelock::gpu
 #endif
 #endif

@@ -30,6 +30,7 @@ typedef struct FlkStrands {
   const float* radii;           /* vertex_count (unit of the positions), half the diameter; NULL: default width */
   const float* root_uvs;        /* 2 x strand_count, on the scalp; NULL: none */
   const float* inverse_masses;  /* vertex_count, 0 pins the vertex; NULL: none */
+  const float* colors;          /* 3 x vertex_count, linear [0, 1]; NULL: none */
 } FlkStrands;
 
 typedef struct FlkAssetOptions {

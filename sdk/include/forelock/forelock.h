@@ -47,7 +47,8 @@ enum {
   FLK_ERROR_UNSUPPORTED_DEVICE = -9,   /* the device lacks what flkGetRequirements lists */
   FLK_ERROR_UNSUPPORTED_IMAGE = -10,   /* wrong format, sample count or usage of a host image */
   FLK_ERROR_DEVICE_LOST = -11,
-  FLK_ERROR_TOO_MANY_FRAMES = -12      /* more frames in flight than the view was created for */
+  FLK_ERROR_TOO_MANY_FRAMES = -12,     /* more frames in flight than the view was created for */
+  FLK_ERROR_NOT_BUILT = -13            /* the library was built without what is asked for (CMake options FORELOCK_...) */
 };
 
 /* Struct tags. */

@@ -22,6 +22,7 @@ const char* flkResultName(FlkResult result) {
     FORELOCK_NAME(FLK_ERROR_UNSUPPORTED_IMAGE);
     FORELOCK_NAME(FLK_ERROR_DEVICE_LOST);
     FORELOCK_NAME(FLK_ERROR_TOO_MANY_FRAMES);
+    FORELOCK_NAME(FLK_ERROR_NOT_BUILT);
 #undef FORELOCK_NAME
     default: return "unknown";
   }

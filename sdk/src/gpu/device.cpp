@@ -42,14 +42,19 @@ FlkResult Device::init(const FlkContextDesc& desc, const Messages& context_messa
   FLK_INSTANCE_FUNCTIONS(FLK_LOAD)
 #undef FLK_LOAD
 
-    VkPhysicalDeviceProperties properties{};
-    fn.vkGetPhysicalDeviceProperties(desc.physical_device, &properties);
-    if (properties.apiVersion < VK_API_VERSION_1_3) {
-      messages.say(FLK_SEVERITY_ERROR, "DEVICE_VERSION", "device %.200s offers Vulkan %u.%u, 1.3 is needed",
-                   properties.deviceName, VK_API_VERSION_MAJOR(properties.apiVersion),
-                   VK_API_VERSION_MINOR(properties.apiVersion));
-      return FLK_ERROR_UNSUPPORTED_DEVICE;
-    }
+  VkPhysicalDeviceVulkan11Properties properties11{};
+  properties11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES;
+  VkPhysicalDeviceProperties2 properties2{};
+  properties2.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties2.pNext = &properties11;
+  fn.vkGetPhysicalDeviceProperties2(desc.physical_device, &properties2);
+  const VkPhysicalDeviceProperties& properties = properties2.properties;
+  if (properties.apiVersion < VK_API_VERSION_1_3) {
+    messages.say(FLK_SEVERITY_ERROR, "DEVICE_VERSION", "device %.200s offers Vulkan %u.%u, 1.3 is needed",
+                 properties.deviceName, VK_API_VERSION_MAJOR(properties.apiVersion),
+                 VK_API_VERSION_MINOR(properties.apiVersion));
+    return FLK_ERROR_UNSUPPORTED_DEVICE;
+  }
     VkPhysicalDeviceVulkan13Features features13{};
     features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     VkPhysicalDeviceVulkan12Features features12{};
@@ -82,11 +87,21 @@ FlkResult Device::init(const FlkContextDesc& desc, const Messages& context_messa
     VkQueueFamilyProperties families[kMaxFamilies]{};
     family_count = std::min(family_count, kMaxFamilies);
     fn.vkGetPhysicalDeviceQueueFamilyProperties(desc.physical_device, &family_count, families);
-    constexpr VkQueueFlags kQueue = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    if (desc.queue_family >= family_count || (families[desc.queue_family].queueFlags & kQueue) != kQueue) {
-      messages.say(FLK_SEVERITY_ERROR, "DEVICE_QUEUE",
-                   "queue family %u of device %.200s does not offer both graphics and compute", desc.queue_family,
-                   properties.deviceName);
+    const VkQueueFlags queue = desc.queue_family < family_count ? families[desc.queue_family].queueFlags : 0;
+    if (!(queue & VK_QUEUE_COMPUTE_BIT)) {
+      messages.say(FLK_SEVERITY_ERROR, "DEVICE_QUEUE", "queue family %u of device %.200s does not offer compute",
+                   desc.queue_family, properties.deviceName);
+      return FLK_ERROR_UNSUPPORTED_DEVICE;
+    }
+    graphics = queue & VK_QUEUE_GRAPHICS_BIT;
+    constexpr VkSubgroupFeatureFlags kSubgroup = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+    const VkShaderStageFlags stages =
+        VK_SHADER_STAGE_COMPUTE_BIT | (graphics ? VkShaderStageFlags(VK_SHADER_STAGE_FRAGMENT_BIT) : 0u);
+    if ((properties11.subgroupSupportedOperations & kSubgroup) != kSubgroup ||
+        (properties11.subgroupSupportedStages & stages) != stages) {
+      messages.say(FLK_SEVERITY_ERROR, "DEVICE_SUBGROUP",
+                   "device %.200s lacks ballots over subgroups in compute%s shaders", properties.deviceName,
+                   graphics ? " or fragment" : "");
       return FLK_ERROR_UNSUPPORTED_DEVICE;
     }
     timestamp_bits = families[desc.queue_family].timestampValidBits;
@@ -189,20 +204,23 @@ FlkResult Device::createBuffer(uint64_t size, VkBufferUsageFlags usage, bool hos
   return flk;
 }
 
-FlkResult Device::createDepthImage(uint32_t size, const char* name, Image& image) {
+FlkResult Device::createMapImage(uint32_t width, uint32_t height, bool computed, const char* name, Image& image) {
   image = {};
-  image.size = size;
+  image.width = width, image.height = height, image.computed = computed;
   if (planning()) return FLK_SUCCESS;
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+  // Depth by integer atomics on R32_UINT, read as the R32_SFLOAT whose bits they are.
+  info.flags = computed ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0;
   info.imageType = VK_IMAGE_TYPE_2D;
-  info.format = VK_FORMAT_D32_SFLOAT;
-  info.extent = {size, size, 1};
+  info.format = computed ? VK_FORMAT_R32_UINT : VK_FORMAT_D32_SFLOAT;
+  info.extent = {width, height, 1};
   info.mipLevels = info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
-  info.usage =
-      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  info.usage = (computed ? VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT
+                         : VkImageUsageFlags(VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT)) |
+               VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   VkResult result = fn.vkCreateImage(device, &info, nullptr, &image.handle);
   if (result != VK_SUCCESS) return image = {}, toResult(result);
   VkMemoryRequirements requirements{};
@@ -210,16 +228,27 @@ FlkResult Device::createDepthImage(uint32_t size, const char* name, Image& image
   FlkResult flk = allocate(requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, false, name, image.memory);
   if (flk == FLK_SUCCESS)
     flk = toResult(fn.vkBindImageMemory(device, image.handle, image.memory.memory, image.memory.offset));
-  if (flk == FLK_SUCCESS) {
-    VkImageViewCreateInfo view{};
-    view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    view.image = image.handle;
-    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    view.format = info.format;
-    view.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
-    flk = toResult(fn.vkCreateImageView(device, &view, nullptr, &image.view));
-    if (flk != FLK_SUCCESS) image.view = VK_NULL_HANDLE;
-  }
+  const VkImageAspectFlags aspect = computed ? VK_IMAGE_ASPECT_COLOR_BIT : VK_IMAGE_ASPECT_DEPTH_BIT;
+  auto createView = [&](VkFormat format, VkImageUsageFlags usage, VkImageView& view) {
+    if (flk != FLK_SUCCESS) return;
+    VkImageViewUsageCreateInfo used{};
+    used.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO;
+    used.usage = usage;
+    VkImageViewCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    create.pNext = &used;
+    create.image = image.handle;
+    create.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    create.format = format;
+    create.subresourceRange = {aspect, 0, 1, 0, 1};
+    flk = toResult(fn.vkCreateImageView(device, &create, nullptr, &view));
+    if (flk != FLK_SUCCESS) view = VK_NULL_HANDLE;
+  };
+  createView(computed ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_D32_SFLOAT,
+             computed ? VkImageUsageFlags(VK_IMAGE_USAGE_SAMPLED_BIT)
+                      : VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+             image.view);
+  if (computed) createView(VK_FORMAT_R32_UINT, VK_IMAGE_USAGE_STORAGE_BIT, image.store_view);
   if (flk != FLK_SUCCESS) destroy(image);
   return flk;
 }
@@ -231,6 +260,7 @@ void Device::destroy(Buffer& buffer) {
 }
 
 void Device::destroy(Image& image) {
+  if (image.store_view) fn.vkDestroyImageView(device, image.store_view, nullptr);
   if (image.view) fn.vkDestroyImageView(device, image.view, nullptr);
   if (image.handle) fn.vkDestroyImage(device, image.handle, nullptr);
   if (!planning()) release(image.memory);

@@ -11,7 +11,7 @@ namespace forelock {
 
 #define FLK_INSTANCE_FUNCTIONS(X)        \
   X(vkGetDeviceProcAddr)                 \
-  X(vkGetPhysicalDeviceProperties)       \
+  X(vkGetPhysicalDeviceProperties2)      \
   X(vkGetPhysicalDeviceFeatures2)        \
   X(vkGetPhysicalDeviceMemoryProperties) \
   X(vkGetPhysicalDeviceQueueFamilyProperties)
@@ -25,6 +25,7 @@ namespace forelock {
   X(vkCmdBindDescriptorSets)      \
   X(vkCmdBindIndexBuffer)         \
   X(vkCmdBindPipeline)            \
+  X(vkCmdClearColorImage)         \
   X(vkCmdCopyBuffer)              \
   X(vkCmdDispatch)                \
   X(vkCmdDrawIndexed)             \
@@ -83,7 +84,9 @@ struct Image {
   VkImage handle = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;
   FlkDeviceAllocation memory{};
-  uint32_t size = 0;  // texels a side
+  VkImageView store_view = VK_NULL_HANDLE;  // R32_UINT, of one that compute shaders write
+  uint32_t width = 0, height = 0;
+  bool computed = false;  // written by compute shaders: R32, else D32_SFLOAT
 };
 
 FlkResult toResult(VkResult result);
@@ -99,7 +102,7 @@ public:
 
   // host_visible: mapped for as long as the buffer lives, coherent.
   FlkResult createBuffer(uint64_t size, VkBufferUsageFlags usage, bool host_visible, const char* name, Buffer& buffer);
-  FlkResult createDepthImage(uint32_t size, const char* name, Image& image);
+  FlkResult createMapImage(uint32_t width, uint32_t height, bool computed, const char* name, Image& image);
   void destroy(Buffer& buffer);
   void destroy(Image& image);
 
@@ -108,6 +111,7 @@ public:
   VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
   VkPhysicalDeviceLimits limits{};
   uint32_t timestamp_bits = 0;
+  bool graphics = true;  // the queue rasterises
   Messages messages;
 
 private:

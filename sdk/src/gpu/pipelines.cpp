@@ -16,8 +16,21 @@ struct BindingKind {
   VkShaderStageFlags stages;
 };
 
-VkResult createShader(Device& device, ShaderId id, VkShaderModule& module) {
-  const auto code = shaderCode(id);
+constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kImage = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+                           kStore = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+constexpr BindingKind kBindings[kBindingCount] = {
+    {kBuffer, kVertex | kFragment | kCompute},
+    {kBuffer, kFragment | kCompute},
+    {kBuffer, kFragment | kCompute},
+    {kImage, kFragment | kCompute},
+    {kImage, kFragment | kCompute},
+    {kStore, kCompute},
+    {kImage, kFragment | kCompute},
+    {kImage, kFragment | kCompute},
+    {kStore, kCompute},
+};
+
+VkResult createShader(Device& device, std::span<const uint32_t> code, VkShaderModule& module) {
   VkShaderModuleCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   info.codeSize = code.size_bytes();
@@ -47,7 +60,7 @@ VkResult createCompute(Device& device, VkPipelineLayout layout, VkShaderModule m
 
 VkResult createRaster(Device& device, VkPipelineLayout layout, VkShaderModule vertex, VkShaderModule fragment,
                       bool depth, const VkSpecializationInfo* constants, VkPipeline& pipeline) {
-  const VkPipelineShaderStageCreateInfo stages[] = {stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex, nullptr),
+  const VkPipelineShaderStageCreateInfo stages[] = {stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex, constants),
                                                     stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, constants)};
   VkPipelineVertexInputStateCreateInfo input{};
   input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
@@ -97,75 +110,65 @@ VkResult createRaster(Device& device, VkPipelineLayout layout, VkShaderModule ve
   return device.fn.vkCreateGraphicsPipelines(device.device, device.pipeline_cache, 1, &info, nullptr, &pipeline);
 }
 
-VkResult createSetLayout(Device& device, const BindingKind* kinds, uint32_t count, VkDescriptorSetLayout& layout) {
-  VkDescriptorSetLayoutBinding bindings[8]{};
-  for (uint32_t i = 0; i < count; ++i) bindings[i] = {i, kinds[i].type, 1, kinds[i].stages, nullptr};
-  VkDescriptorSetLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  info.bindingCount = count;
-  info.pBindings = bindings;
-  return device.fn.vkCreateDescriptorSetLayout(device.device, &info, nullptr, &layout);
-}
-
 }  // namespace
+
+VkDescriptorType bindingType(uint32_t binding) { return kBindings[binding].type; }
 
 FlkResult Pipelines::init(Device& device) {
   if (device.planning()) return FLK_SUCCESS;
-  constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kImage = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-  const BindingKind view_types[] = {{kBuffer, kVertex | kFragment | kCompute},
-                                    {kBuffer, kFragment | kCompute},
-                                    {kBuffer, kFragment | kCompute},
-                                    {kImage, kFragment},
-                                    {kImage, kFragment | kCompute},
-                                    {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kCompute}};
-  const BindingKind hair_types[] = {{kBuffer, kVertex}, {kBuffer, kVertex}, {kBuffer, kVertex}};
-  VkResult result = createSetLayout(device, view_types, uint32_t(std::size(view_types)), view_set);
-  if (result != VK_SUCCESS) view_set = VK_NULL_HANDLE;
-  if (result == VK_SUCCESS) {
-    result = createSetLayout(device, hair_types, uint32_t(std::size(hair_types)), hair_set);
-    if (result != VK_SUCCESS) hair_set = VK_NULL_HANDLE;
-  }
-  if (result == VK_SUCCESS) {
-    const VkDescriptorSetLayout sets[] = {view_set, hair_set};
-    const VkPushConstantRange range{VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(uint32_t)};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = uint32_t(std::size(sets));
-    info.pSetLayouts = sets;
-    info.pushConstantRangeCount = 1;
-    info.pPushConstantRanges = &range;
-    result = device.fn.vkCreatePipelineLayout(device.device, &info, nullptr, &layout);
-    if (result != VK_SUCCESS) layout = VK_NULL_HANDLE;
-  }
-  if (result != VK_SUCCESS) destroy(device);
+  VkDescriptorSetLayoutBinding bindings[kBindingCount]{};
+  for (uint32_t i = 0; i < kBindingCount; ++i) bindings[i] = {i, kBindings[i].type, 1, kBindings[i].stages, nullptr};
+  VkDescriptorSetLayoutCreateInfo set_info{};
+  set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  set_info.bindingCount = kBindingCount;
+  set_info.pBindings = bindings;
+  VkResult result = device.fn.vkCreateDescriptorSetLayout(device.device, &set_info, nullptr, &view_set);
+  if (result != VK_SUCCESS) return view_set = VK_NULL_HANDLE, toResult(result);
+  const VkPushConstantRange range{kPushStages, 0, kPushBytes};
+  VkPipelineLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  info.setLayoutCount = 1;
+  info.pSetLayouts = &view_set;
+  info.pushConstantRangeCount = 1;
+  info.pPushConstantRanges = &range;
+  result = device.fn.vkCreatePipelineLayout(device.device, &info, nullptr, &layout);
+  if (result != VK_SUCCESS) layout = VK_NULL_HANDLE, destroy(device);
   return toResult(result);
 }
 
 void Pipelines::destroy(Device& device) {
-  for (const Entry& entry : cache_) device.fn.vkDestroyPipeline(device.device, entry.pipeline, nullptr);
+  for (const Entry& entry : cache_)
+    if (entry.pipeline) device.fn.vkDestroyPipeline(device.device, entry.pipeline, nullptr);
   cache_.clear();
   if (layout) device.fn.vkDestroyPipelineLayout(device.device, layout, nullptr);
-  if (hair_set) device.fn.vkDestroyDescriptorSetLayout(device.device, hair_set, nullptr);
   if (view_set) device.fn.vkDestroyDescriptorSetLayout(device.device, view_set, nullptr);
   layout = VK_NULL_HANDLE;
-  hair_set = view_set = VK_NULL_HANDLE;
+  view_set = VK_NULL_HANDLE;
 }
 
-FlkResult Pipelines::get(Device& device, const Recipe& recipe, VkPipeline& pipeline) {
+FlkResult Pipelines::get(Device& device, const Recipe& recipe, VkPipeline& pipeline, uint64_t& hash) {
   pipeline = VK_NULL_HANDLE;
-  if (device.planning()) return FLK_SUCCESS;
   for (const Entry& entry : cache_)
-    if (entry.recipe == recipe) return pipeline = entry.pipeline, FLK_SUCCESS;
+    if (entry.recipe == recipe) return pipeline = entry.pipeline, hash = entry.hash, FLK_SUCCESS;
+  const auto main_code = shaderCode(recipe.main, recipe.images), vertex_code = shaderCode(recipe.vertex, 0);
+  if (main_code.empty() || (recipe.vertex != ShaderId::none && vertex_code.empty())) {
+    device.messages.say(FLK_SEVERITY_ERROR, "NOT_BUILT",
+                        "this build of Forelock does without something that the frame asks for (CMake options FORELOCK_...)");
+    return FLK_ERROR_NOT_BUILT;
+  }
+  hash = recipeHash(recipe);
   cache_.reserve(cache_.size() + 1);  // before there is a pipeline to lose
+
+  if (device.planning()) return cache_.push_back({recipe, VK_NULL_HANDLE, hash}), FLK_SUCCESS;
 
   VkSpecializationMapEntry entries[FLK_SPEC_COUNT];
   for (uint32_t i = 0; i < FLK_SPEC_COUNT; ++i) entries[i] = {i, uint32_t(i * sizeof(uint32_t)), sizeof(uint32_t)};
   const VkSpecializationInfo constants{FLK_SPEC_COUNT, entries, sizeof recipe.constants, recipe.constants};
   VkShaderModule vertex = VK_NULL_HANDLE, main = VK_NULL_HANDLE;
-  VkResult result = createShader(device, recipe.main, main);
+  VkResult result = createShader(device, main_code, main);
   if (result != VK_SUCCESS) main = VK_NULL_HANDLE;
   if (result == VK_SUCCESS && recipe.vertex != ShaderId::none) {
-    result = createShader(device, recipe.vertex, vertex);
+    result = createShader(device, vertex_code, vertex);
     if (result != VK_SUCCESS) vertex = VK_NULL_HANDLE;
   }
   if (result == VK_SUCCESS)
@@ -179,7 +182,7 @@ FlkResult Pipelines::get(Device& device, const Recipe& recipe, VkPipeline& pipel
                         int(result));
     return toResult(result);
   }
-  cache_.push_back({recipe, pipeline});
+  cache_.push_back({recipe, pipeline, hash});
   return FLK_SUCCESS;
 }
 

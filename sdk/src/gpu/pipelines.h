@@ -9,8 +9,25 @@
 
 namespace forelock {
 
-// Set 0: the view's; set 1: a hair's. shaders/passes/bindings.glsl.
-enum Binding : uint32_t { kBindFrame, kBindHeads, kBindCounters, kBindHostDepth, kBindShadowMap, kBindTarget };
+// shaders/passes/bindings.glsl.
+enum Binding : uint32_t {
+  kBindFrame,
+  kBindHeads,
+  kBindCounters,
+  kBindHostDepth,
+  kBindShadowMap,
+  kBindTarget,
+  kBindHostShadowMaps,
+  kBindHostVisibility,
+  kBindShadowStore,
+  kBindingCount
+};
+VkDescriptorType bindingType(uint32_t binding);
+
+// Push constants of any pass lie in the first bytes.
+inline constexpr uint32_t kPushBytes = 64;
+inline constexpr VkShaderStageFlags kPushStages =
+    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
 
 class Pipelines {
 public:
@@ -19,17 +36,17 @@ public:
   FlkResult init(Device& device);
   void destroy(Device& device);
 
-  // Compiles if need be. `pipeline` stays valid until destroy().
-  FlkResult get(Device& device, const Recipe& recipe, VkPipeline& pipeline);
+  // Compiles if need be. `pipeline` stays valid until destroy(). FLK_ERROR_NOT_BUILT: this build lacks the shader.
+  FlkResult get(Device& device, const Recipe& recipe, VkPipeline& pipeline, uint64_t& hash);
 
   VkDescriptorSetLayout view_set = VK_NULL_HANDLE;
-  VkDescriptorSetLayout hair_set = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
 
 private:
   struct Entry {
     Recipe recipe;
     VkPipeline pipeline;
+    uint64_t hash;
   };
   std::pmr::vector<Entry> cache_;
 };

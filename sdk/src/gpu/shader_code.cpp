@@ -1,48 +1,48 @@
 #include "gpu/shader_code.h"
 
-#include "shaders_spv/capture_depth_frag.h"
-#include "shaders_spv/capture_display_depth_frag.h"
-#include "shaders_spv/capture_display_frag.h"
-#include "shaders_spv/capture_forward_depth_frag.h"
-#include "shaders_spv/capture_forward_frag.h"
-#include "shaders_spv/capture_forward_shadow_depth_frag.h"
-#include "shaders_spv/capture_forward_shadow_frag.h"
-#include "shaders_spv/capture_frag.h"
-#include "shaders_spv/capture_vert.h"
-#include "shaders_spv/resolve_comp.h"
-#include "shaders_spv/resolve_exact_comp.h"
-#include "shaders_spv/resolve_exact_shadow_comp.h"
-#include "shaders_spv/resolve_forward_comp.h"
-#include "shaders_spv/resolve_layers_comp.h"
-#include "shaders_spv/resolve_shadow_comp.h"
-#include "shaders_spv/shadow_frag.h"
-#include "shaders_spv/shadow_vert.h"
+#include "shaders_spv/all.h"
 
 namespace forelock {
+namespace {
 
-std::span<const uint32_t> shaderCode(ShaderId id) {
-  switch (id) {
-    case ShaderId::none:
-    case ShaderId::count: return {};
-    case ShaderId::capture_vert: return capture_vert;
-    case ShaderId::capture_frag: return capture_frag;
-    case ShaderId::capture_depth_frag: return capture_depth_frag;
-    case ShaderId::capture_forward_frag: return capture_forward_frag;
-    case ShaderId::capture_forward_depth_frag: return capture_forward_depth_frag;
-    case ShaderId::capture_forward_shadow_frag: return capture_forward_shadow_frag;
-    case ShaderId::capture_forward_shadow_depth_frag: return capture_forward_shadow_depth_frag;
-    case ShaderId::capture_display_frag: return capture_display_frag;
-    case ShaderId::capture_display_depth_frag: return capture_display_depth_frag;
-    case ShaderId::shadow_vert: return shadow_vert;
-    case ShaderId::shadow_frag: return shadow_frag;
-    case ShaderId::resolve_comp: return resolve_comp;
-    case ShaderId::resolve_shadow_comp: return resolve_shadow_comp;
-    case ShaderId::resolve_forward_comp: return resolve_forward_comp;
-    case ShaderId::resolve_exact_comp: return resolve_exact_comp;
-    case ShaderId::resolve_exact_shadow_comp: return resolve_exact_shadow_comp;
-    case ShaderId::resolve_layers_comp: return resolve_layers_comp;
+struct Shader {
+  ShaderId id;
+  uint8_t images;
+  std::span<const uint32_t> words;
+};
+
+const Shader kShaders[] = {
+#define FLK_SHADER(id, images, words) {ShaderId::id, images, words},
+#include "shaders_spv/table.inc"
+#undef FLK_SHADER
+};
+
+// Fowler, Noll, Vo: FNV-1a, a word at a time.
+void add(uint64_t& hash, uint32_t word) { hash = (hash ^ word) * 0x100000001B3u; }
+
+void addModule(uint64_t& hash, std::span<const uint32_t> words, const uint32_t* constants) {
+  constexpr uint32_t kHeader = 5, kDecorate = 71, kSpecId = 1;  // of the SPIR-V specification
+  for (const uint32_t word : words) add(hash, word);
+  for (std::size_t at = kHeader; at < words.size(); at += words[at] >> 16) {
+    if (words[at] >> 16 == 0) return;
+    if ((words[at] & 0xFFFF) == kDecorate && words[at + 2] == kSpecId && words[at + 3] < FLK_SPEC_COUNT)
+      add(hash, constants[words[at + 3]]);
   }
+}
+
+}  // namespace
+
+std::span<const uint32_t> shaderCode(ShaderId id, uint8_t images) {
+  for (const Shader& shader : kShaders)
+    if (shader.id == id && shader.images == images) return shader.words;
   return {};
+}
+
+uint64_t recipeHash(const Recipe& recipe) {
+  uint64_t hash = 0xCBF29CE484222325u;
+  if (recipe.vertex != ShaderId::none) addModule(hash, shaderCode(recipe.vertex, 0), recipe.constants);
+  if (recipe.main != ShaderId::none) addModule(hash, shaderCode(recipe.main, recipe.images), recipe.constants);
+  return hash;
 }
 
 }  // namespace forelock

@@ -1,29 +1,34 @@
 #include "passes/recipe.h"
 
-#include "shared/node.h"
-
 namespace forelock {
 
-Recipe captureRecipe(const FramePlan& plan) {
+Recipe captureRecipe(const FramePlan& plan, PassId pass) {
   Recipe recipe;
-  recipe.vertex = ShaderId::capture_vert;
-  const bool depth = plan.has_depth;
-  switch (plan.method->capture) {
+  recipe.vertex = plan.compute ? ShaderId::none : ShaderId::capture_vert;
+  recipe.images = plan.has_depth ? kImageDepth : 0;
+  recipe.constants[FLK_SPEC_MODIFIERS] = plan.modifiers;
+  const CaptureKind kind = plan.method->capture;
+  switch (kind) {
     case CaptureKind::tangent:
-      recipe.main = depth ? ShaderId::capture_depth_frag : ShaderId::capture_frag;
-      break;
+    case CaptureKind::hard: recipe.main = plan.compute ? ShaderId::capture_compute : ShaderId::capture; break;
     case CaptureKind::color:
-      if (plan.shadow_size)
-        recipe.main = depth ? ShaderId::capture_forward_shadow_depth_frag : ShaderId::capture_forward_shadow_frag;
-      else
-        recipe.main = depth ? ShaderId::capture_forward_depth_frag : ShaderId::capture_forward_frag;
+      recipe.main = plan.compute ? ShaderId::capture_forward_compute : ShaderId::capture_forward;
+      if (!plan.count_only) addLight(plan, recipe);
       break;
     case CaptureKind::display:
-      recipe.main = depth ? ShaderId::capture_display_depth_frag : ShaderId::capture_display_frag;
-      recipe.constants[FLK_SPEC_DISPLAY] = plan.display;
+      recipe.main = plan.compute ? ShaderId::capture_display_compute : ShaderId::capture_display;
+      recipe.constants[FLK_SPEC_DISPLAY] = plan.count_only ? 0 : plan.display;
       break;
   }
-  if (plan.method->capture != CaptureKind::display) recipe.constants[FLK_SPEC_PAYLOAD] = plan.payload;
+  if (kind == CaptureKind::tangent || kind == CaptureKind::color) recipe.constants[FLK_SPEC_PAYLOAD] = plan.payload;
+  recipe.constants[FLK_SPEC_COLOR] = plan.fibre_colors && (pass == PassId::capture || pass == PassId::hard_payload);
+  recipe.constants[FLK_SPEC_AGGREGATE] = plan.aggregate;
+  switch (pass) {
+    case PassId::count: recipe.constants[FLK_SPEC_STORE] = FLK_STORE_COUNT; break;
+    case PassId::hard_depth: recipe.constants[FLK_SPEC_STORE] = FLK_STORE_HARD_DEPTH; break;
+    case PassId::hard_payload: recipe.constants[FLK_SPEC_STORE] = FLK_STORE_HARD_PAYLOAD; break;
+    default: break;
+  }
   return recipe;
 }
 

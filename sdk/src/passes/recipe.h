@@ -8,38 +8,49 @@
 
 namespace forelock {
 
+// As in shaders/CMakeLists.txt.
 enum class ShaderId : uint8_t {
   none,
   capture_vert,
-  capture_frag,
-  capture_depth_frag,
-  capture_forward_frag,
-  capture_forward_depth_frag,
-  capture_forward_shadow_frag,
-  capture_forward_shadow_depth_frag,
-  capture_display_frag,
-  capture_display_depth_frag,
+  capture,
+  capture_forward,
+  capture_display,
+  capture_compute,
+  capture_forward_compute,
+  capture_display_compute,
   shadow_vert,
   shadow_frag,
-  resolve_comp,
-  resolve_shadow_comp,
-  resolve_forward_comp,
-  resolve_exact_comp,
-  resolve_exact_shadow_comp,
-  resolve_layers_comp,
-  count
+  shadow_compute,
+  prepare,
+  resolve,
+  resolve_colors,
+  resolve_exact,
+  resolve_hard,
+  resolve_layers,
+  output_front_depth,
+  output_transmittance,
+  output_velocity,
+  output_depth_range
 };
 
 struct Recipe {
   ShaderId vertex = ShaderId::none;    // none: a compute pass
   ShaderId main = ShaderId::none;      // fragment or compute
+  uint8_t images = 0;                  // bits of Images that `main` is bound to
   bool depth_attachment = false;       // D32_SFLOAT, less, written
   uint32_t constants[FLK_SPEC_COUNT] = {};  // by FLK_SPEC_...; 0 where the shader has no such constant
   bool operator==(const Recipe&) const = default;
 };
 
+Recipe prepareRecipe();
 Recipe shadowRecipe(const FramePlan& plan);
-Recipe captureRecipe(const FramePlan& plan);
+Recipe captureRecipe(const FramePlan& plan, PassId pass);
 Recipe resolveRecipe(const FramePlan& plan);
+Recipe outputRecipe(const FramePlan& plan, uint32_t output);
+// Of any pass but clear.
+Recipe recipeOf(const FramePlan& plan, const Pass& pass);
+
+// Constants of shaders that shade, and the images they read for it.
+void addLight(const FramePlan& plan, Recipe& recipe);
 
 }  // namespace forelock

@@ -40,6 +40,18 @@ inline Vec3 transformDirection(const Mat4& m, Vec3 v) {
 inline double determinant3(const Mat4& m) {
   return dot({m[0], m[1], m[2]}, cross({m[4], m[5], m[6]}, {m[8], m[9], m[10]}));
 }
+// Of any affine matrix whose determinant is not 0.
+inline Mat4 inverseAffine(const Mat4& m) {
+  const Vec3 x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
+  const double scale = 1.0 / determinant3(m);
+  const Vec3 rows[3] = {cross(y, z) * scale, cross(z, x) * scale, cross(x, y) * scale};
+  Mat4 r = kIdentity;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) r[column * 4 + row] = rows[row][column];
+    r[12 + row] = -dot(rows[row], {m[12], m[13], m[14]});
+  }
+  return r;
+}
 // Of a rotation and translation.
 inline Mat4 inverseRigid(const Mat4& m) {
   Mat4 r = kIdentity;

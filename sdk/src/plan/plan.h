@@ -2,58 +2,29 @@
 // means is decided here, once; the GPU room allocates and records what is listed, nothing else.
 #pragma once
 
-#include "plan/camera.h"
-#include "plan/methods.h"
-
-#include <array>
-#include <cstdint>
-#include <span>
+#include "plan/facts.h"
+#include "plan/shadow_maps.h"
 
 namespace forelock {
 
 inline constexpr uint32_t kMaxHairs = 63;
+inline constexpr uint32_t kMaxLights = 4096;
 inline constexpr uint64_t kNodeBytes = 12;
+inline constexpr uint64_t kColorNodeBytes = 16;
 inline constexpr uint64_t kMaxNodes = (1u << 26) - 1;
 
-// ---- Asked ----
-
-struct HairFacts {
-  uint64_t segments = 0;
-  Box bounds;                  // of its vertices, hair space
-  Mat4 world_from_hair = kIdentity;
-  double radius = 0;           // largest, metre in the world
-  double length = 0;           // of all strands, metre in the world
-};
-
-struct LightFacts {
-  bool casts_shadow = false;
-  uint32_t shadow_size = 1024;
-};
-
-struct FrameFacts {
-  Camera camera;
-  std::span<const HairFacts> hairs;
-  std::span<const LightFacts> lights;  // [0, 1]
-  uint32_t method = 0;                 // index of kMethods
-  uint32_t display = 0;                // FLK_DISPLAY_...
-  uint32_t payload = 0;
-  uint32_t k = 8, k_sort = 8;
-  bool has_depth = false;
-  bool timestamps = false;
-};
-
-// ---- Needed ----
-
-enum class PassId : uint8_t { clear, shadow, capture, resolve };
+enum class PassId : uint8_t { clear, prepare, shadow, count, capture, hard_depth, hard_payload, resolve, output };
 
 struct Pass {
   PassId id{};
   const char* name = "";
-  uint32_t groups[3] = {0, 0, 0};  // of a compute pass
+  uint32_t groups[3] = {0, 0, 0};  // of a pass of one dispatch
   uint64_t indices = 0;            // of a raster pass
+  uint64_t segments = 0;           // of a shadow or capture pass by compute
+  uint32_t output = 0;             // of an output pass: FLK_OUTPUT_...
 };
 
-enum class ResourceId : uint8_t { constants, heads, nodes, counters, read_back, shadow_map };
+enum class ResourceId : uint8_t { constants, lights, heads, nodes, aggregates, counters, read_back, shadow_map };
 
 struct Resource {
   ResourceId id{};
@@ -63,18 +34,14 @@ struct Resource {
   const char* why = "";
 };
 
-template <class T, std::size_t N> struct FixedList {
-  std::array<T, N> items{};
-  std::size_t count = 0;
-  void add(const T& item) { items[count++] = item; }
-  const T* begin() const { return items.data(); }
-  const T* end() const { return items.data() + count; }
-};
+// Bits of what a pass may be bound to beyond its own memory: a shader is compiled for each set of them.
+enum Images : uint8_t { kImageDepth = 1, kImageShadow = 2, kImageHostLight = 4 };
 
 struct FramePlan {
-  FixedList<Pass, 8> passes;
+  const char* fault = nullptr;  // why the frame cannot be had; then nothing else holds
+  FixedList<Pass, 16> passes;
   FixedList<Resource, 12> resources;
-  FixedList<const char*, 12> omissions;
+  FixedList<const char*, 32> omissions;
   const Method* method = nullptr;
   Rect rect;                 // of the hair on screen
   uint64_t visible = 0;      // bit i: hair i touches the screen
@@ -82,13 +49,29 @@ struct FramePlan {
   uint64_t segments = 0;     // captured
   uint64_t estimate = 0;     // upper estimate of fragments
   uint64_t node_capacity = 0;
-  uint32_t shadow_size = 0;  // 0: no shadow pass
+  ShadowLayout shadow;
   uint32_t k = 0, k_sort = 0, payload = 0, display = 0;
   bool one_hair = false;     // fragments need no slot to be told apart
   bool has_depth = false;
   bool timestamps = false;
+  bool compute = false;
+  bool count_only = false;
+  bool count_work = false;
+  bool colors = false;       // nodes carry the fibre's colour
+  bool fibre_colors = false; // strands have colours that vary
+  bool aggregate = false;
+  bool ambient_sh = false;
+  uint32_t tail = 0;         // FLK_TAIL_KIND_...
+  uint32_t light_mode = 0;   // FLK_LIGHTS_...
+  uint32_t light_count = 0;
+  uint32_t light_kinds = 0;  // bits of LightKind
+  uint32_t face_kinds = 0;   // FLK_FACES_...
+  uint32_t host_light = 0;   // FLK_HOST_...
+  uint32_t modifiers = 0;
+  uint32_t outputs = 0;
 
   bool has(PassId id) const;
+  bool hasShadow() const { return shadow.faces.count != 0; }
   uint64_t bytes(ResourceId id) const;
   uint64_t transientBytes() const;
 };
@@ -98,5 +81,7 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity);
 
 // The upper estimate of fragments alone, for choosing the capacity.
 uint64_t estimateFragments(const FrameFacts& facts);
+// Bytes a fragment takes in the frame's lists.
+uint64_t nodeBytes(const FrameFacts& facts);
 
 }  // namespace forelock

@@ -1,0 +1,49 @@
+// Walking a pixel's list, and the aggregate of what it had no room for. Included after bindings.glsl with FLK_BIND_LISTS.
+#ifndef FORELOCK_PASSES_LIST
+#define FORELOCK_PASSES_LIST
+#include "../lib/order.glsl"
+#include "../lib/packing.glsl"
+
+layout(constant_id = FLK_SPEC_PAYLOAD) const int kPayload = 0;
+layout(constant_id = FLK_SPEC_ONE_HAIR) const bool kOneHair = false;
+layout(constant_id = FLK_SPEC_AGGREGATE) const bool kAggregate = false;
+layout(constant_id = FLK_SPEC_COLOR) const bool kColor = false;
+const uint kNodeWords = kColor ? FLK_NODE_WORDS + 1u : FLK_NODE_WORDS;
+
+// The fragment that a link names; link becomes the next.
+Key readNode(inout uint link) {
+  NodePool nodes = NodePool(frame.node_pool);
+  uint base = (link & FLK_LINK_INDEX_MASK) * kNodeWords;
+  Key key = Key(nodes.words[base], nodes.words[base + 1u], kOneHair ? 0u : link >> FLK_LINK_SLOT_SHIFT, kColor ? nodes.words[base + 3u] : 0u);
+  link = nodes.words[base + 2u];
+  return key;
+}
+
+// What the lists had no room for, as one fragment.
+struct Aggregate {
+  float tau;         // 0: nothing
+  float least, greatest;  // depths (metre)
+  uint slot;
+  vec3 color;        // in lists of colours
+};
+
+Aggregate readAggregate(uint pixel, bool colors) {
+  Aggregate a = Aggregate(0.0, 0.0, 0.0, 0u, vec3(0.0));
+  if (!kAggregate) return a;
+  AggregatePool pool = AggregatePool(frame.aggregates);
+  uint base = pixel * FLK_AGGREGATE_WORDS;
+  a.tau = float(pool.words[base]) / FLK_TAU_STEPS;
+  if (!(a.tau > 0.0)) return a;
+  if (colors) {
+    vec3 sums = vec3(pool.words[base + 1u], pool.words[base + 2u], pool.words[base + 3u]);
+    a.color = min(sums / (255.0 * FLK_TAU_COLOR_STEPS * a.tau), vec3(1.0)) * frame.color_range;
+  } else {
+    uint least = ~pool.words[base + 1u];
+    a.slot = min(least & FLK_SLOT_BITS, FLK_MAX_HAIRS - 1u);
+    a.least = uintBitsToFloat(least & ~FLK_SLOT_BITS);
+    a.greatest = uintBitsToFloat(pool.words[base + 2u]);
+  }
+  return a;
+}
+
+#endif

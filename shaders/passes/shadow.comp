@@ -1,0 +1,40 @@
+// Shadow maps without a rasteriser: as capture.comp, the least depth of a texel by an atomic (positive floats sort as integers).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define FLK_BIND_HAIR
+#define FLK_BIND_SHADOW_STORE
+layout(local_size_x = 64) in;
+#include "bindings.glsl"
+#include "map_segment.glsl"
+#include "walk.glsl"
+
+shared MapShape shapes[kWalkSegments];
+
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+  uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kWalkSegments + lane;
+  ivec2 corner = ivec2(FaceList(frame.faces).at[face].offset);
+  int size = int(FaceList(frame.faces).at[face].size);
+  float middle = float(size) * 0.5;
+  QuadWalk walk = emptyWalk();
+  MapShape shape;
+  QuadEnd end_a, end_b;
+  if (index < segment_count && mapShape(first_segment + index, shape, end_a, end_b)) {
+    shapes[lane] = shape;
+    walk = quadWalk(shape.axis.xy + middle, shape.direction.xy, end_a, end_b, vec2(middle), ivec4(0, 0, size, size));
+  }
+  uint total = shareWalks(walk);
+  for (uint task = lane; task < total; task += kWalkSegments) {
+    uint owner;
+    ivec2 first;
+    int count;
+    walkTask(task, owner, first, count);
+    MapShape of = shapes[owner];
+    bool columns = walkColumns(owner);
+    for (int i = 0; i < count; ++i) {
+      ivec2 texel = first + (columns ? ivec2(0, i) : ivec2(i, 0));
+      float value;
+      if (mapDepth(of, vec2(texel) + 0.5 - middle, value)) imageAtomicMin(shadow_store, corner + texel, floatBitsToUint(value));
+    }
+  }
+}

@@ -1,0 +1,60 @@
+// The tail of a pixel: what lies behind the core (docs/methods.md section 6). Included after bindings.glsl.
+#ifndef FORELOCK_PASSES_TAIL
+#define FORELOCK_PASSES_TAIL
+
+layout(constant_id = FLK_SPEC_TAIL) const int kTail = FLK_TAIL_KIND_LIST;
+const float kColorSteps = 16777215.0;  // all that fp32 tells apart
+
+// In list order: color over what came before. As a mean: integer sums, which no order changes.
+struct Tail {
+  vec3 color;
+  float transmittance;
+  uint tau;           // 2^-16
+  uvec3 low, high;    // sums of tau times colour: 64 bits
+};
+
+Tail emptyTail() { return Tail(vec3(0.0), 1.0, 0u, uvec3(0u), uvec3(0u)); }
+
+uint tauSteps(float alpha) { return uint(min(-log2(max(1.0 - alpha, 1.0 / 8192.0)), FLK_TAU_MOST) * FLK_TAU_STEPS + 0.5); }
+
+void addToMean(inout Tail tail, uint tau, vec3 color) {
+  // Saturates: 65536 is beyond what any picture shows.
+  tail.tau = tail.tau + tau < tail.tau ? 0xFFFFFFFFu : tail.tau + tau;
+  if (kTail == FLK_TAIL_KIND_NONE) return;
+  uvec3 steps = uvec3(clamp(color / frame.tail_range, 0.0, 1.0) * kColorSteps + 0.5);
+  uvec3 product_high, product_low, carry;
+  umulExtended(steps, uvec3(tau), product_high, product_low);
+  tail.low = uaddCarry(tail.low, product_low, carry);
+  tail.high += product_high + carry;
+}
+
+void addToTail(inout Tail tail, float alpha, vec3 color) {
+  if (kTail == FLK_TAIL_KIND_LIST) {
+    tail.color = alpha * color + (1.0 - alpha) * tail.color;
+    tail.transmittance *= 1.0 - alpha;
+  } else {
+    addToMean(tail, tauSteps(alpha), color);
+  }
+}
+
+// What overflowed, behind what is in the list.
+void addAggregate(inout Tail tail, float tau, vec3 color) {
+  if (kTail == FLK_TAIL_KIND_LIST) {
+    float through = exp2(-min(tau, 126.0));
+    tail.color += tail.transmittance * (1.0 - through) * color;
+    tail.transmittance *= through;
+  } else {
+    addToMean(tail, uint(min(tau, 16000.0) * FLK_TAU_STEPS + 0.5), color);
+  }
+}
+
+// Colour and transmittance in the end.
+void closeTail(inout Tail tail) {
+  if (kTail == FLK_TAIL_KIND_LIST) return;
+  tail.transmittance = exp2(-min(float(tail.tau) / FLK_TAU_STEPS, 126.0)) * (float(tail.tau) > 126.0 * FLK_TAU_STEPS ? 0.0 : 1.0);
+  if (kTail == FLK_TAIL_KIND_NONE || tail.tau == 0u) return;
+  vec3 sum = vec3(tail.high) * 4294967296.0 + vec3(tail.low);
+  tail.color = sum / (float(tail.tau) * kColorSteps) * frame.tail_range * (1.0 - tail.transmittance);
+}
+
+#endif

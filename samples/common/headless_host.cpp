@@ -24,7 +24,7 @@ namespace {
               X(vkCreateImageView) X(vkDestroyImageView) X(vkGetImageMemoryRequirements) X(vkBindImageMemory) \
                   X(vkCreateBuffer) X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) \
                       X(vkAllocateMemory) X(vkFreeMemory) X(vkMapMemory) X(vkCmdPipelineBarrier2)             \
-                          X(vkCmdCopyBufferToImage) X(vkCmdCopyImageToBuffer) X(vkCmdClearColorImage)
+                          X(vkCmdCopyBufferToImage) X(vkCmdCopyImageToBuffer) X(vkCmdClearColorImage) X(vkGetBufferDeviceAddress)
 
 struct Functions {
 #define HOST_DECLARE(name) PFN_##name name = nullptr;
@@ -64,6 +64,9 @@ uint16_t floatToHalf(float value) {
   return uint16_t(sign | (m + 0x0FFFu + (m >> 13 & 1u)) >> 13);
 }
 
+constexpr uint32_t kOutputValues[FLK_OUTPUT_COUNT] = {1, 1, 2, 2};
+constexpr VkFormat kOutputFormats[FLK_OUTPUT_COUNT] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R16G16_SFLOAT,
+                                                       VK_FORMAT_R32G32_SFLOAT};
 constexpr VkImageSubresourceRange kColorRange{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
 constexpr VkImageSubresourceRange kDepthRange{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
 
@@ -99,7 +102,11 @@ struct HeadlessHost::Impl {
   std::vector<std::string> validation, messages;
 
   uint32_t width = 0, height = 0;
-  HostImage color, depth;
+  HostImage color, depth, outputs[FLK_OUTPUT_COUNT];
+  uint32_t output_mask = 0;
+  bool graphics = true;
+  std::vector<HostImage> uploaded_images;
+  std::vector<HostBuffer> uploaded_buffers;
   HostBuffer transfer;
   std::vector<float> background, depth_values;
   bool depth_changed = false;
@@ -108,9 +115,14 @@ struct HeadlessHost::Impl {
   ~Impl() { destroy(); }
   void destroy();
   bool createInstance(bool with_validation, std::string& error);
-  bool createDevice(const std::string& wanted, std::string& error);
+  bool createDevice(const HeadlessOptions& options, std::string& error);
   uint32_t memoryType(uint32_t bits, VkMemoryPropertyFlags flags) const;
   bool createImage(VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect, HostImage& image);
+  bool createImage(VkExtent3D extent, uint32_t layers, VkImageViewType view_type, VkFormat format, VkImageUsageFlags usage,
+                   VkImageAspectFlags aspect, HostImage& image);
+  bool createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, HostBuffer& buffer);
+  void destroyBuffer(HostBuffer& buffer);
+  bool ensureOutputs();
   void destroyImage(HostImage& image);
   bool ensureTransfer(VkDeviceSize size);
   void transition(VkImage image, const VkImageSubresourceRange& range, VkImageLayout from, VkImageLayout to) const;
@@ -185,7 +197,8 @@ bool HeadlessHost::Impl::createInstance(bool with_validation, std::string& error
     return true;
 }
 
-bool HeadlessHost::Impl::createDevice(const std::string& wanted, std::string& error) {
+bool HeadlessHost::Impl::createDevice(const HeadlessOptions& options, std::string& error) {
+  const std::string& wanted = options.device_name;
   FlkRequirements need{};
   flkGetRequirements(&need);
   uint32_t count = 0;
@@ -211,15 +224,17 @@ bool HeadlessHost::Impl::createDevice(const std::string& wanted, std::string& er
     fn.vkGetPhysicalDeviceQueueFamilyProperties(candidate, &families, family_properties.data());
     for (uint32_t i = 0; i < families; ++i) {
       if ((family_properties[i].queueFlags & need.queue_flags) != need.queue_flags) continue;
-      const int rank = preference(properties.properties.deviceType);
-      if (rank >= best) break;
+      const bool rasterises = family_properties[i].queueFlags & VK_QUEUE_GRAPHICS_BIT;
+      // A family of the kind wanted if there is one, else any.
+      const int rank = 2 * preference(properties.properties.deviceType) + (rasterises == options.compute_queue);
+      if (rank >= best) continue;
+      graphics = rasterises;
       best = rank;
       physical_device = candidate;
       family = i;
       type = properties.properties.deviceType;
       device_name = name;
       driver_name = std::string(driver.driverName) + " " + driver.driverInfo;
-      break;
     }
   }
   if (!physical_device)
@@ -234,6 +249,7 @@ bool HeadlessHost::Impl::createDevice(const std::string& wanted, std::string& er
   queue_info.queueCount = 1;
   queue_info.pQueuePriorities = &priority;
   need.features12.pNext = &need.features13;
+  need.features.shaderStorageImageExtendedFormats = need.output_features.shaderStorageImageExtendedFormats;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = &need.features12;
@@ -282,8 +298,10 @@ void HeadlessHost::Impl::destroy() {
     flkContextDestroy(context);
     destroyImage(color);
     destroyImage(depth);
-    if (transfer.buffer)
-      fn.vkDestroyBuffer(device, transfer.buffer, nullptr), fn.vkFreeMemory(device, transfer.memory, nullptr);
+    for (HostImage& image : outputs) destroyImage(image);
+    for (HostImage& image : uploaded_images) destroyImage(image);
+    for (HostBuffer& buffer : uploaded_buffers) destroyBuffer(buffer);
+    destroyBuffer(transfer);
     if (fence) fn.vkDestroyFence(device, fence, nullptr);
     if (pool) fn.vkDestroyCommandPool(device, pool, nullptr);
     fn.vkDestroyDevice(device, nullptr);
@@ -301,12 +319,18 @@ uint32_t HeadlessHost::Impl::memoryType(uint32_t bits, VkMemoryPropertyFlags fla
 
 bool HeadlessHost::Impl::createImage(VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect,
                                      HostImage& image) {
+  return createImage({width, height, 1}, 1, VK_IMAGE_VIEW_TYPE_2D, format, usage, aspect, image);
+}
+
+bool HeadlessHost::Impl::createImage(VkExtent3D extent, uint32_t layers, VkImageViewType view_type, VkFormat format,
+                                     VkImageUsageFlags usage, VkImageAspectFlags aspect, HostImage& image) {
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = format;
-  info.extent = {width, height, 1};
-  info.mipLevels = info.arrayLayers = 1;
+  info.extent = extent;
+  info.mipLevels = 1;
+  info.arrayLayers = layers;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = usage;
   if (fn.vkCreateImage(device, &info, nullptr, &image.image) != VK_SUCCESS) return false;
@@ -320,9 +344,9 @@ bool HeadlessHost::Impl::createImage(VkFormat format, VkImageUsageFlags usage, V
   VkImageViewCreateInfo view{};
   view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
   view.image = image.image;
-  view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  view.viewType = view_type;
   view.format = format;
-  view.subresourceRange = {aspect, 0, 1, 0, 1};
+  view.subresourceRange = {aspect, 0, 1, 0, layers};
   return fn.vkBindImageMemory(device, image.image, image.memory, 0) == VK_SUCCESS &&
          fn.vkCreateImageView(device, &view, nullptr, &image.view) == VK_SUCCESS;
 }
@@ -334,27 +358,48 @@ void HeadlessHost::Impl::destroyImage(HostImage& image) {
   image = {};
 }
 
-bool HeadlessHost::Impl::ensureTransfer(VkDeviceSize size) {
-  if (transfer.size >= size) return true;
-  if (transfer.buffer)
-    fn.vkDestroyBuffer(device, transfer.buffer, nullptr), fn.vkFreeMemory(device, transfer.memory, nullptr);
-  transfer = {};
+bool HeadlessHost::Impl::createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, HostBuffer& buffer) {
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = size;
-  info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  if (fn.vkCreateBuffer(device, &info, nullptr, &transfer.buffer) != VK_SUCCESS) return false;
+  info.usage = usage;
+  if (fn.vkCreateBuffer(device, &info, nullptr, &buffer.buffer) != VK_SUCCESS) return false;
   VkMemoryRequirements requirements{};
-  fn.vkGetBufferMemoryRequirements(device, transfer.buffer, &requirements);
+  fn.vkGetBufferMemoryRequirements(device, buffer.buffer, &requirements);
+  VkMemoryAllocateFlagsInfo flags{};
+  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
   VkMemoryAllocateInfo allocate{};
   allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  if (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) allocate.pNext = &flags;
   allocate.allocationSize = requirements.size;
   allocate.memoryTypeIndex = memoryType(requirements.memoryTypeBits,
                                         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-  if (fn.vkAllocateMemory(device, &allocate, nullptr, &transfer.memory) != VK_SUCCESS) return false;
-  transfer.size = size;
-  return fn.vkBindBufferMemory(device, transfer.buffer, transfer.memory, 0) == VK_SUCCESS &&
-         fn.vkMapMemory(device, transfer.memory, 0, VK_WHOLE_SIZE, 0, &transfer.mapped) == VK_SUCCESS;
+  if (fn.vkAllocateMemory(device, &allocate, nullptr, &buffer.memory) != VK_SUCCESS) return false;
+  buffer.size = size;
+  return fn.vkBindBufferMemory(device, buffer.buffer, buffer.memory, 0) == VK_SUCCESS &&
+         fn.vkMapMemory(device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped) == VK_SUCCESS;
+}
+
+void HeadlessHost::Impl::destroyBuffer(HostBuffer& buffer) {
+  if (buffer.buffer) fn.vkDestroyBuffer(device, buffer.buffer, nullptr);
+  if (buffer.memory) fn.vkFreeMemory(device, buffer.memory, nullptr);
+  buffer = {};
+}
+
+bool HeadlessHost::Impl::ensureTransfer(VkDeviceSize size) {
+  if (transfer.size >= size) return true;
+  destroyBuffer(transfer);
+  return createBuffer(size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, transfer);
+}
+
+bool HeadlessHost::Impl::ensureOutputs() {
+  for (uint32_t i = 0; i < FLK_OUTPUT_COUNT; ++i)
+    if ((output_mask >> i & 1) && !outputs[i].view &&
+        !createImage(kOutputFormats[i], VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                     VK_IMAGE_ASPECT_COLOR_BIT, outputs[i]))
+      return false;
+  return true;
 }
 
 // Everything before, everything after: a test host may wait.
@@ -392,7 +437,7 @@ HeadlessHost::~HeadlessHost() = default;
 
 std::unique_ptr<HeadlessHost> HeadlessHost::create(const HeadlessOptions& options, std::string& error) {
   std::unique_ptr<HeadlessHost> host(new HeadlessHost);
-  if (!host->impl_->createInstance(options.validation, error) || !host->impl_->createDevice(options.device_name, error))
+  if (!host->impl_->createInstance(options.validation, error) || !host->impl_->createDevice(options, error))
     return nullptr;
   return host;
 }
@@ -409,6 +454,7 @@ bool HeadlessHost::resize(uint32_t width, uint32_t height) {
   if (i.width == width && i.height == height && i.color.view && i.depth.view) return true;
   i.destroyImage(i.color);
   i.destroyImage(i.depth);
+  for (HostImage& image : i.outputs) i.destroyImage(image);
   i.width = width, i.height = height;
   i.background.clear();
   i.depth_values.clear();
@@ -417,6 +463,48 @@ bool HeadlessHost::resize(uint32_t width, uint32_t height) {
                        VK_IMAGE_ASPECT_COLOR_BIT, i.color) &&
          i.createImage(VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                        VK_IMAGE_ASPECT_DEPTH_BIT, i.depth);
+}
+
+void HeadlessHost::setOutputs(uint32_t mask) { impl_->output_mask = mask; }
+bool HeadlessHost::queueHasGraphics() const { return impl_->graphics; }
+
+FlkSampledImage HeadlessHost::uploadArray(uint32_t width, uint32_t height, uint32_t layers, std::span<const float> values) {
+  Impl& i = *impl_;
+  HostImage& image = i.uploaded_images.emplace_back();
+  if (!i.createImage({width, height, 1}, layers, VK_IMAGE_VIEW_TYPE_2D_ARRAY, VK_FORMAT_R32_SFLOAT,
+                     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT, image) ||
+      !i.ensureTransfer(values.size_bytes()))
+    return {};
+  std::memcpy(i.transfer.mapped, values.data(), values.size_bytes());
+  const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layers};
+  submit([&](VkCommandBuffer cmd) {
+    i.transition(image.image, range, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, layers};
+    region.imageExtent = {width, height, 1};
+    i.fn.vkCmdCopyBufferToImage(cmd, i.transfer.buffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    i.transition(image.image, range, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  });
+  return {image.image, image.view, range, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+          VK_ACCESS_2_TRANSFER_WRITE_BIT};
+}
+
+VkDeviceAddress HeadlessHost::uploadBuffer(std::span<const std::byte> bytes) {
+  Impl& i = *impl_;
+  HostBuffer& buffer = i.uploaded_buffers.emplace_back();
+  if (!i.createBuffer(bytes.size(), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT, buffer)) return 0;
+  std::memcpy(buffer.mapped, bytes.data(), bytes.size());
+  VkBufferDeviceAddressInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+  info.buffer = buffer.buffer;
+  return i.fn.vkGetBufferDeviceAddress(i.device, &info);
+}
+
+void HeadlessHost::freeUploads() {
+  for (HostImage& image : impl_->uploaded_images) impl_->destroyImage(image);
+  for (HostBuffer& buffer : impl_->uploaded_buffers) impl_->destroyBuffer(buffer);
+  impl_->uploaded_images.clear();
+  impl_->uploaded_buffers.clear();
 }
 
 void HeadlessHost::setBackground(std::vector<float> rgba) { impl_->background = std::move(rgba); }
@@ -479,6 +567,10 @@ void HeadlessHost::fillFrame(FlkFrame& frame) const {
                    VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
                    VK_PIPELINE_STAGE_2_COPY_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT};
+  for (uint32_t o = 0; o < FLK_OUTPUT_COUNT; ++o)
+    frame.outputs[o] = i.output_mask >> o & 1 ? FlkOutputImage{i.outputs[o].image, i.outputs[o].view, kColorRange,
+                                                               frame.target.entry, frame.target.exit}
+                                              : FlkOutputImage{};
 }
 
 bool HeadlessHost::uploadDepth() {
@@ -498,6 +590,7 @@ FlkResult HeadlessHost::renderTogether(FlkView view, std::span<FlkFrame> frames,
   Impl& i = *impl_;
   std::vector<FlkPlan> plans;
   const uint64_t completed = i.frame;
+  if (!i.ensureOutputs()) return FLK_ERROR_OUT_OF_DEVICE_MEMORY;
   for (FlkFrame& frame : frames) {
     const FlkDepthSource given = frame.depth;
     fillFrame(frame);
@@ -527,6 +620,13 @@ FlkResult HeadlessHost::renderTogether(FlkView view, std::span<FlkFrame> frames,
       } else {
         i.uploadImage(i.color, kColorRange, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
       }
+      for (uint32_t o = 0; o < FLK_OUTPUT_COUNT; ++o) {
+        if (!(i.output_mask >> o & 1)) continue;
+        VkClearColorValue unset{};
+        for (float& value : unset.float32) value = -1;
+        i.transition(i.outputs[o].image, kColorRange, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        i.fn.vkCmdClearColorImage(cmd, i.outputs[o].image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &unset, 1, &kColorRange);
+      }
       flkCmdRender(cmd, plan);
     }
   });
@@ -555,21 +655,43 @@ std::vector<float> HeadlessHost::readColor() {
   return rgba;
 }
 
-std::vector<float> HeadlessHost::readDepthImage(VkImage image, uint32_t size) {
+std::vector<float> HeadlessHost::readShadowMap(const FlkShadowMap& map) {
   Impl& i = *impl_;
-  const std::size_t values = std::size_t(size) * size;
+  const std::size_t values = std::size_t(map.size) * map.size;
   std::vector<float> depth(values);
   if (!i.ensureTransfer(values * 4)) return {};
+  const VkImageSubresourceRange range = map.format == VK_FORMAT_D32_SFLOAT ? kDepthRange : kColorRange;
   submit([&](VkCommandBuffer cmd) {
-    i.transition(image, kDepthRange, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    i.transition(map.image, range, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
-    region.imageExtent = {size, size, 1};
-    i.fn.vkCmdCopyImageToBuffer(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1, &region);
-    i.transition(image, kDepthRange, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    region.imageSubresource = {range.aspectMask, 0, 0, 1};
+    region.imageOffset = {int32_t(map.offset[0]), int32_t(map.offset[1]), 0};
+    region.imageExtent = {map.size, map.size, 1};
+    i.fn.vkCmdCopyImageToBuffer(cmd, map.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1, &region);
+    i.transition(map.image, range, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   });
   std::memcpy(depth.data(), i.transfer.mapped, values * 4);
   return depth;
+}
+
+std::vector<float> HeadlessHost::readOutput(uint32_t output) {
+  Impl& i = *impl_;
+  const std::size_t values = std::size_t(i.width) * i.height * kOutputValues[output];
+  if (!i.ensureTransfer(values * 4)) return {};
+  submit([&](VkCommandBuffer cmd) {
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {i.width, i.height, 1};
+    i.fn.vkCmdCopyImageToBuffer(cmd, i.outputs[output].image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1, &region);
+  });
+  std::vector<float> result(values);
+  if (kOutputFormats[output] == VK_FORMAT_R16G16_SFLOAT) {
+    const auto* half = static_cast<const uint16_t*>(i.transfer.mapped);
+    std::transform(half, half + values, result.begin(), halfToFloat);
+  } else {
+    std::memcpy(result.data(), i.transfer.mapped, values * 4);
+  }
+  return result;
 }
 
 }  // namespace forelock::samples

@@ -16,6 +16,7 @@ namespace forelock::samples {
 struct HeadlessOptions {
   bool validation = false;   // core and synchronization validation; messages are collected
   std::string device_name;   // part of the device's name; empty: a discrete GPU, else any other, else a CPU device
+  bool compute_queue = false;// a queue family without graphics, where the device has one
 };
 
 class HeadlessHost {
@@ -54,7 +55,17 @@ public:
   FlkResult statistics(FlkView view, FlkStatistics& statistics) const;
 
   std::vector<float> readColor();                               // width x height x RGBA
-  std::vector<float> readDepthImage(VkImage image, uint32_t size);// a D32_SFLOAT in SHADER_READ_ONLY_OPTIMAL
+  std::vector<float> readShadowMap(const FlkShadowMap& map);    // size x size
+
+  // Pictures besides the colour for the frames that follow, cleared to -1 before each: bits 1 << FLK_OUTPUT_...
+  void setOutputs(uint32_t mask);
+  std::vector<float> readOutput(uint32_t output);               // width x height x 1 or 2
+
+  // What a host gives the SDK to read; lives until freeUploads().
+  FlkSampledImage uploadArray(uint32_t width, uint32_t height, uint32_t layers, std::span<const float> values);
+  VkDeviceAddress uploadBuffer(std::span<const std::byte> bytes);
+  void freeUploads();
+  bool queueHasGraphics() const;
 
   // Records with `record`, submits, waits. False: the device is lost.
   bool submit(const std::function<void(VkCommandBuffer)>& record);

@@ -126,7 +126,7 @@ void Painter::drawUntilWhole(FlkFrame& frame, Picture& picture) {
     FlkPlan plan = nullptr;
     check(host_.render(view_, frame, &plan), "drawing");
     check(host_.statistics(view_, picture.statistics), "reading the statistics");
-    if (picture.statistics.fragments_lost > 0 && picture.attempts < kMostAttempts) {
+    if (picture.statistics.overflow_fragments > 0 && picture.attempts < kMostAttempts) {
       continue;  // the next plan knows how many fragments there are
     }
     check(flkPlanGetInfo(plan, &picture.plan), "asking the plan");
@@ -152,8 +152,8 @@ Painter::Sounding Painter::sound(const Camera& camera) {
   Picture picture;
   drawUntilWhole(staged.frame, picture);
   sounding.exposure = chooseExposure(host_.readColor(), 1.0, stage_);
-  if (*scene.head && flkViewGetShadowMap(view_, 0, &sounding.shadow.map) == FLK_SUCCESS) {
-    sounding.shadow.depth = host_.readDepthImage(sounding.shadow.map.image, sounding.shadow.map.size);
+  if (*scene.head && flkViewGetShadowMap(view_, 0, 0, &sounding.shadow.map) == FLK_SUCCESS) {
+    sounding.shadow.depth = host_.readShadowMap(sounding.shadow.map);
     const FlkMaterial& material = stage_.assets[0].material;
     sounding.shadow.fibres_per_metre = 1.0f / material.fibre_spacing;
     sounding.shadow.log2_transmittance = std::log2(std::max(1.0f - material.shadow_opacity, 1e-6f));

@@ -24,7 +24,7 @@ constexpr const char* kExamples =
     "  forelock plan pony.tfx --method forward --json\n"
     "  forelock plan --scene scene.json\n";
 
-constexpr const char* kStages[FLK_STAGE_COUNT] = {"clear", "shadow", "capture", "resolve"};
+constexpr const char* kStages[FLK_STAGE_COUNT] = {"clear", "shadow", "capture", "resolve", "prepare", "output"};
 
 struct Planned {
   FlkPlanInfo info{};
@@ -36,6 +36,9 @@ struct Planned {
 std::string workOf(const FlkPassInfo& pass) {
   if (pass.indices > 0) {
     return groupedDigits(pass.indices) + " indices";
+  }
+  if (pass.segments > 0) {
+    return groupedDigits(pass.segments) + " segments";
   }
   if (pass.groups[0] > 0) {
     return groupedDigits(uint64_t{pass.groups[0]} * pass.groups[1] * pass.groups[2]) + " workgroups";
@@ -52,9 +55,9 @@ void printText(const Stage& stage, const Planned& planned) {
   std::printf("%u x %u, %s; hair in %u x %u pixels at (%u, %u)\n", stage.scene.width, stage.scene.height,
               methodText(stage.scene).c_str(), planned.info.rect[2], planned.info.rect[3], planned.info.rect[0],
               planned.info.rect[1]);
-  std::printf("\npass          work\n");
+  std::printf("\npass                   work\n");
   for (const FlkPassInfo& pass : planned.passes) {
-    std::printf("  %-11s %s\n", pass.name, workOf(pass).c_str());
+    std::printf("  %-20s %s\n", pass.name, workOf(pass).c_str());
   }
   std::printf("\nresource             bytes  held                  why\n");
   std::printf("  %-11s %12s  as long as the hair   strands: positions, radii, indices\n", "hair",
@@ -97,7 +100,7 @@ void printJson(const Stage& stage, const Planned& planned) {
   json["passes"] = nlohmann::ordered_json::array();
   for (const FlkPassInfo& pass : planned.passes) {
     json["passes"].push_back({{"name", pass.name}, {"stage", kStages[pass.stage]}, {"groups", pass.groups},
-                              {"indices", pass.indices}});
+                              {"indices", pass.indices}, {"segments", pass.segments}});
   }
   json["resources"] = nlohmann::ordered_json::array();
   for (const FlkResourceInfo& resource : planned.resources) {

@@ -33,7 +33,7 @@ constexpr const char* kExamples =
     "  forelock preview groom:long-wavy -o turn.png --turntable 12 --size 512x512\n"
     "  forelock preview --scene scene.json -o scene.png --background 202428\n";
 
-constexpr const char* kStages[FLK_STAGE_COUNT] = {"clear", "shadow", "capture", "resolve"};
+constexpr const char* kStages[FLK_STAGE_COUNT] = {"clear", "shadow", "capture", "resolve", "prepare", "output"};
 
 std::string numberedPath(const std::string& path, uint32_t number) {
   char suffix[16];
@@ -107,7 +107,7 @@ void printJson(const PreviewArguments& arguments, const HeadlessHost& host, cons
   json["segments"] = picture.plan.segment_count;
   json["hair_pixels"] = picture.hair_pixels;
   json["fragments"] = picture.statistics.fragments;
-  json["fragments_lost"] = picture.statistics.fragments_lost;
+  json["overflow_fragments"] = picture.statistics.overflow_fragments;
   json["mean_layers"] = picture.meanLayers();
   for (int stage_index = 0; stage_index < FLK_STAGE_COUNT; ++stage_index) {
     const double ms = picture.statistics.milliseconds[stage_index];
@@ -187,10 +187,10 @@ int runPreview(const CLI::App& command, const PreviewArguments& arguments) {
       progress.update(i, views);
       picture = painter.draw(stageCamera(stage, i, views), exposure);
       exposure = picture.exposure;  // one light for all views
-      if (picture.statistics.fragments_lost > 0) {
-        std::fprintf(stderr, "forelock: %s: %s of %s fragments did not fit into 1 GiB and are missing; draw a smaller "
+      if (picture.statistics.overflow_fragments > 0) {
+        std::fprintf(stderr, "forelock: %s: %s of %s fragments did not fit into 1 GiB and are drawn as a sum; draw a smaller "
                              "--size or thinner strands (--width)\n", arguments.out.c_str(),
-                     groupedDigits(picture.statistics.fragments_lost).c_str(),
+                     groupedDigits(picture.statistics.overflow_fragments).c_str(),
                      groupedDigits(picture.statistics.fragments).c_str());
       }
       if (arguments.turntable > 0) {

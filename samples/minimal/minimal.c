@@ -69,7 +69,7 @@ static void createDevice(Engine* engine) {
   for (uint32_t i = 0; i < count; ++i) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(devices[i], &properties);
-    const int family = findQueueFamily(devices[i], needs.queue_flags);
+    const int family = findQueueFamily(devices[i], needs.queue_flags | VK_QUEUE_GRAPHICS_BIT);
     if (properties.apiVersion < needs.api_version || family < 0) continue;
     if (wanted && !strstr(properties.deviceName, wanted)) continue;
     const int first = engine->physical_device == VK_NULL_HANDLE;
@@ -403,9 +403,9 @@ int main(int argc, char** argv) {
   printf("device     %s\n", engine.properties.deviceName);
   printf("strands    %u\n", asset_info.strand_count);
   printf("picture    %s, %u pixels with hair\n", picture_file, covered);
-  printf("fragments  %llu, %llu lost\n", (unsigned long long)statistics.fragments,
-         (unsigned long long)statistics.fragments_lost);
-  static const char* const stages[FLK_STAGE_COUNT] = {"clear", "shadow", "capture", "resolve"};
+  printf("fragments  %llu, %llu beyond the lists\n", (unsigned long long)statistics.fragments,
+         (unsigned long long)statistics.overflow_fragments);
+  static const char* const stages[FLK_STAGE_COUNT] = {"clear", "shadow", "capture", "resolve", "prepare", "output"};
   for (int i = 0; i < FLK_STAGE_COUNT; ++i)
     if (statistics.milliseconds[i] >= 0.0) printf("%-10s %.3f ms\n", stages[i], statistics.milliseconds[i]);
 

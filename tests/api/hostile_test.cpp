@@ -388,8 +388,8 @@ TEST_F(Hostile, nullsAndTags) {
   flkMaterialDefault(&material);
   EXPECT_EQ(flkViewGetStatistics(nullptr, 0, &statistics), kInvalid);
   EXPECT_EQ(flkViewGetStatistics(view, 0, nullptr), kInvalid);
-  EXPECT_EQ(flkViewGetShadowMap(nullptr, 0, &map), kInvalid);
-  EXPECT_EQ(flkViewGetShadowMap(view, 0, nullptr), kInvalid);
+  EXPECT_EQ(flkViewGetShadowMap(nullptr, 0, 0, &map), kInvalid);
+  EXPECT_EQ(flkViewGetShadowMap(view, 0, 0, nullptr), kInvalid);
   EXPECT_EQ(flkHairGetInfo(nullptr, &hair_info), kInvalid);
   EXPECT_EQ(flkHairGetInfo(hair, nullptr), kInvalid);
   EXPECT_EQ(flkHairSetTransform(nullptr, identity), kInvalid);

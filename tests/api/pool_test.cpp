@@ -48,12 +48,12 @@ TEST_F(Pool, growsAfterAFrameThatCountedMore) {
   ASSERT_EQ(flkViewGetStatistics(view, 1, &statistics), FLK_SUCCESS);
   EXPECT_EQ(statistics.frame_number, 1u);
   EXPECT_EQ(statistics.fragments, many);
-  EXPECT_EQ(statistics.fragments_lost, many - first.node_capacity);
+  EXPECT_EQ(statistics.overflow_fragments, many - first.node_capacity);
 
   const FlkPlanInfo second = render(view, 1, many);
   EXPECT_GE(second.node_capacity, many);
   ASSERT_EQ(flkViewGetStatistics(view, 2, &statistics), FLK_SUCCESS);
-  EXPECT_EQ(statistics.fragments_lost, 0u);
+  EXPECT_EQ(statistics.overflow_fragments, 0u);
   EXPECT_EQ(statistics.frame_number, 2u);
 
   // Steady from then on.
@@ -97,7 +97,7 @@ TEST_F(Pool, budgetHolds) {
   FlkStatistics statistics;
   ASSERT_EQ(flkViewGetStatistics(view, number, &statistics), FLK_SUCCESS);
   EXPECT_EQ(statistics.fragments, 4000000u);
-  EXPECT_GE(statistics.fragments_lost, 4000000u - kBudget / 12);
+  EXPECT_GE(statistics.overflow_fragments, 4000000u - kBudget / 12);
   finish(view);
 }
 
@@ -107,7 +107,7 @@ TEST_F(Pool, budgetBelowOneNode) {
   EXPECT_EQ(render(view, 1, 5000).node_capacity, 1u);
   FlkStatistics statistics;
   ASSERT_EQ(flkViewGetStatistics(view, 1, &statistics), FLK_SUCCESS);
-  EXPECT_EQ(statistics.fragments_lost, 4999u);
+  EXPECT_EQ(statistics.overflow_fragments, 4999u);
   EXPECT_EQ(render(view, 1, 5000).node_capacity, 1u);
   finish(view);
 }

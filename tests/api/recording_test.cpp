@@ -150,7 +150,7 @@ TEST_F(Recording, noShadowWithoutAShadowingLight) {
   EXPECT_EQ(scene.driver.alive(mock::Kind::Image), 0u);
   EXPECT_EQ(scene.driver.countCommands("vkCmdBeginRendering"), 1u);
   FlkShadowMap map;
-  EXPECT_EQ(flkViewGetShadowMap(view, 0, &map), FLK_NOT_READY);
+  EXPECT_EQ(flkViewGetShadowMap(view, 0, 0, &map), FLK_NOT_READY);
 
   // And the same without any light.
   FlkFrame frame = next();
@@ -165,12 +165,12 @@ TEST_F(Recording, noShadowWithoutAShadowingLight) {
   render(next());
   EXPECT_TRUE(hasResource("shadow map"));
   EXPECT_EQ(scene.driver.alive(mock::Kind::Image), 1u);
-  ASSERT_EQ(flkViewGetShadowMap(view, 0, &map), FLK_SUCCESS);
+  ASSERT_EQ(flkViewGetShadowMap(view, 0, 0, &map), FLK_SUCCESS);
   EXPECT_EQ(map.size, 512u);
   EXPECT_NE(map.image, VkImage{});
   EXPECT_NE(map.view, VkImageView{});
   EXPECT_GT(map.depth_range, 0.0f);
-  EXPECT_NE(flkViewGetShadowMap(view, 1, &map), FLK_SUCCESS);
+  EXPECT_NE(flkViewGetShadowMap(view, 1, 0, &map), FLK_SUCCESS);
 
   // Without it, its memory goes again once no frame in flight uses it.
   scene.light.casts_shadow = 0;
@@ -204,7 +204,7 @@ TEST_F(Recording, nothingInView) {
     ASSERT_EQ(flkViewGetStatistics(view, number, &statistics), FLK_SUCCESS);
     EXPECT_EQ(statistics.frame_number, number);
     EXPECT_EQ(statistics.fragments, 0u);
-    EXPECT_EQ(statistics.fragments_lost, 0u);
+    EXPECT_EQ(statistics.overflow_fragments, 0u);
     for (const double time : statistics.milliseconds) EXPECT_EQ(time, -1.0);
   }
 }

@@ -34,6 +34,7 @@ TEST_P(MethodAt, MatchesItsTwin) {
   for (const auto& method : methods) {
     FlkFrame frame{};
     frame.method = method.method;
+    frame.tail = FLK_TAIL_LIST;
     const reference::Image actual = scene.toImage(scene.render(frame));
     reference::ResolveOptions options;
     options.method = method.twin;

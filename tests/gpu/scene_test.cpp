@@ -263,7 +263,7 @@ TEST(Pool, TooSmallIsCountedExactly) {
   FlkStatistics statistics{};
   ASSERT_EQ(host().statistics(small, statistics), FLK_SUCCESS);
   EXPECT_EQ(statistics.fragments, need);
-  EXPECT_EQ(statistics.fragments_lost, need - need / 4);
+  EXPECT_EQ(statistics.overflow_fragments, need - need / 4);
   finite(host().readColor());
   flkViewDestroy(small);
 }

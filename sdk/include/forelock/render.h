@@ -478,7 +478,8 @@ FLK_API FlkResult flkViewGetStatistics(FlkView view, uint64_t completed_frame, F
  * plan of other maps, or without, has completed. FLK_NOT_READY: the latest plan has no such map. */
 typedef struct FlkShadowMap {
   VkImage image;
-  VkImageView view;             /* D32_SFLOAT where rasterised, R32_SFLOAT where computed */
+  VkImageView view;
+  VkFormat format;              /* of the view: D32_SFLOAT where rasterised, R32_SFLOAT where computed */
   uint32_t offset[2];           /* texel of the image where the map begins */
   uint32_t size;                /* texels a side */
   uint32_t face, face_count;    /* 1, or 6 around a point light amid hair */

@@ -458,6 +458,7 @@ FlkResult View::shadowMap(uint32_t light, uint32_t face, FlkShadowMap& map) cons
   map = {};
   map.image = latest->shadow_map.handle;
   map.view = latest->shadow_map.view;
+  map.format = latest->shadow_map.computed ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_D32_SFLOAT;
   map.offset[0] = found->x, map.offset[1] = found->y;
   map.size = found->size;
   map.face = face, map.face_count = count;

@@ -31,7 +31,7 @@ TEST(PreviewCommand, DrawsHairOverTheBust) {
   ASSERT_TRUE(said.is_object());
   EXPECT_GT(said.at("hair_pixels"), 100);
   EXPECT_GE(said.at("fragments"), said.at("hair_pixels"));  // a pixel of hair has at least one fragment
-  EXPECT_EQ(said.at("fragments_lost"), 0);
+  EXPECT_EQ(said.at("overflow_fragments"), 0);
   EXPECT_GT(said.at("exposure"), 0.0);
   const std::string png = readAll(scratchFolder() / "hair.png");
   ASSERT_GT(png.size(), 33u);

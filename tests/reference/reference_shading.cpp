@@ -53,11 +53,11 @@ std::array<double, 3> shadeFragment(const Scene& scene, const Camera& camera, st
   std::array<double, 3> out{};
   for (size_t c = 0; c < 3; ++c) out[c] = scene.ambient[c] * material->kd * material->color[c];
   for (size_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& light = scene.lights[i];
-    const Vec3 to_light = normalizeOrZero(light.direction_to_light);
+    const Arriving arriving = arrivingLight(scene.lights[i], position);
+    if (isZero(arriving.to_light)) continue;  // in the light itself
     const double reaching = i < maps.size() ? shadowLight(maps[i], *material, position, tangent, full) : 1;
-    const auto lobes = shadeLobes(*material, {tangent, to_light, to_eye}, full);
-    for (size_t c = 0; c < 3; ++c) out[c] += light.radiance[c] * reaching * lobes[c];
+    const auto lobes = shadeLobes(*material, {tangent, arriving.to_light, to_eye}, full);
+    for (size_t c = 0; c < 3; ++c) out[c] += arriving.radiance[c] * reaching * lobes[c];
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include "reference_lights.h"
 #include "reference_scene.h"
 
+#include <concepts>
 #include <string>
 
 namespace forelock::reference {
@@ -74,6 +75,14 @@ struct Image {
 // maps: one per light (an empty span: all lit). They may be the device's, read back.
 Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMap> maps, const FragmentLists& lists,
               const ResolveOptions& options = {});
+Image resolveLit(const Scene& scene, const Camera& camera, std::span<const LightMaps> maps, const FragmentLists& lists,
+                 const ResolveOptions& options = {});
+// The same under the one name. A template, so that {} stands for no maps of either type.
+template <std::convertible_to<std::span<const LightMaps>> Maps>
+Image resolve(const Scene& scene, const Camera& camera, const Maps& maps, const FragmentLists& lists,
+              const ResolveOptions& options = {}) {
+  return resolveLit(scene, camera, maps, lists, options);
+}
 
 // Section 5 for one fragment. T, L, V unit vectors of one space; light in [0, 1] per light.
 struct LobeInput {
@@ -81,6 +90,11 @@ struct LobeInput {
 };
 // kd sin colour + kr lobe1 + kt lobe2 colour (the lobes only if full), without radiance.
 std::array<double, 3> shadeLobes(const Material& material, const LobeInput& input, bool full);
+// faces[i]: the maps of light i; lights beyond the span are lit.
+std::array<double, 3> shadeFragmentLit(const Scene& scene, const Camera& camera,
+                                       std::span<const std::span<const ShadowMap>> faces, int x, int y,
+                                       const Fragment& fragment, bool full);
+// One map a light.
 std::array<double, 3> shadeFragment(const Scene& scene, const Camera& camera, std::span<const ShadowMap> maps, int x,
                                     int y, const Fragment& fragment, bool full);
 

@@ -16,10 +16,8 @@ struct Tail {
   double transmittance = 1;
 };
 
-}  // namespace
-
-Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMap> maps, const FragmentLists& lists,
-              const ResolveOptions& options) {
+Image resolveFaces(const Scene& scene, const Camera& camera, std::span<const std::span<const ShadowMap>> faces,
+                   const FragmentLists& lists, const ResolveOptions& options) {
   Image image;
   image.width = lists.width;
   image.height = lists.height;
@@ -34,7 +32,7 @@ Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMa
       if (list.empty()) continue;
       Pixel& pixel = image.at(x, y);
       pixel.fragments = uint32_t(list.size());
-      auto shade = [&](const Fragment& f, bool full) { return shadeFragment(scene, camera, maps, x, y, f, full); };
+      auto shade = [&](const Fragment& f, bool full) { return shadeFragmentLit(scene, camera, faces, x, y, f, full); };
 
       Tail tail;
       core.clear();
@@ -68,6 +66,22 @@ Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMa
     }
   });
   return image;
+}
+
+}  // namespace
+
+Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMap> maps, const FragmentLists& lists,
+              const ResolveOptions& options) {
+  std::vector<std::span<const ShadowMap>> faces;
+  for (const ShadowMap& map : maps) faces.push_back({&map, 1});
+  return resolveFaces(scene, camera, faces, lists, options);
+}
+
+Image resolveLit(const Scene& scene, const Camera& camera, std::span<const LightMaps> maps, const FragmentLists& lists,
+                 const ResolveOptions& options) {
+  std::vector<std::span<const ShadowMap>> faces;
+  for (const LightMaps& light : maps) faces.push_back(light.faces);
+  return resolveFaces(scene, camera, faces, lists, options);
 }
 
 std::vector<double> opacityOf(const Image& image) {

@@ -35,6 +35,14 @@ std::array<double, 3> shadeLobes(const Material& material, const LobeInput& inpu
 
 std::array<double, 3> shadeFragment(const Scene& scene, const Camera& camera, std::span<const ShadowMap> maps, int x,
                                     int y, const Fragment& fragment, bool full) {
+  std::vector<std::span<const ShadowMap>> faces;
+  for (const ShadowMap& map : maps) faces.push_back({&map, 1});
+  return shadeFragmentLit(scene, camera, faces, x, y, fragment, full);
+}
+
+std::array<double, 3> shadeFragmentLit(const Scene& scene, const Camera& camera,
+                                       std::span<const std::span<const ShadowMap>> faces, int x, int y,
+                                       const Fragment& fragment, bool full) {
   const Material* material = nullptr;
   for (const Hair& hair : scene.hairs) {
     if (hair.slot == fragment.slot) material = &hair.material;
@@ -55,7 +63,7 @@ std::array<double, 3> shadeFragment(const Scene& scene, const Camera& camera, st
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Arriving arriving = arrivingLight(scene.lights[i], position);
     if (isZero(arriving.to_light)) continue;  // in the light itself
-    const double reaching = i < maps.size() ? shadowLight(maps[i], *material, position, tangent, full) : 1;
+    const double reaching = i < faces.size() ? shadowLight(faces[i], *material, position, tangent, full) : 1;
     const auto lobes = shadeLobes(*material, {tangent, arriving.to_light, to_eye}, full);
     for (size_t c = 0; c < 3; ++c) out[c] += arriving.radiance[c] * reaching * lobes[c];
   }

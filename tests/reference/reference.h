@@ -46,16 +46,23 @@ FragmentLists gatherFragments(const Scene& scene, const Camera& camera, const Ga
 // Decoded after coding; alpha 0 means dropped.
 double codedAlpha(double alpha, Payload payload);
 Vec3 codedTangent(Vec3 tangent, Payload payload);
+// Octahedral, the first component in the low bits; all bits set for the zero tangent. bits: of a component.
+uint32_t tangentCode(Vec3 tangent, int bits);
+Vec3 tangentOf(uint32_t code, int bits);
+// Method hard: at most one fragment a pixel, of alpha 1. A payload other than unquantised rounds the tangent.
+FragmentLists gatherHard(const Scene& scene, const Camera& camera, const GatherOptions& options = {});
 
-// exact: all in key order. forward: all full, k_sort in order, the rest in list order. core_tail: section 6.
-// core_only: core_tail whose tail has opacity but no colour.
-enum class Method { exact, forward, core_tail, core_only };
+// Section 6. hard is for the lists of gatherHard: the nearest fragment, fully shaded and opaque.
+enum class Method { exact, forward, core_tail, core_only, all_low, hard };
+// Of core_tail, core_only and all_low; the tail of forward is in list order.
+enum class TailOrder { list, deterministic };
 
 struct ResolveOptions {
   Method method = Method::exact;
   int k = 8;       // fully shaded (core_tail, core_only)
-  int k_sort = 8;  // sorted (all but exact); k <= k_sort
+  int k_sort = 8;  // sorted (all but exact and hard); k <= k_sort
   int threads = 2;
+  TailOrder tail = TailOrder::list;
 };
 
 // Linear, hair over black; T is what the background keeps.
@@ -83,6 +90,9 @@ Image resolve(const Scene& scene, const Camera& camera, const Maps& maps, const 
               const ResolveOptions& options = {}) {
   return resolveLit(scene, camera, maps, lists, options);
 }
+
+Image renderHard(const Scene& scene, const Camera& camera, std::span<const LightMaps> maps,
+                 const GatherOptions& options = {});
 
 // Section 5 for one fragment. T, L, V unit vectors of one space; light in [0, 1] per light.
 struct LobeInput {

@@ -78,4 +78,25 @@ struct ScreenSegment {
 // All quads of the scene in submission order. scale multiplies the pixel grid; flush as above.
 std::vector<ScreenSegment> screenSegments(const Scene& scene, const Camera& camera, double scale, bool flush);
 
+// Where a pixel centre lies in a segment.
+struct Placed {
+  double x, y, v;  // along n, along t, clamped segment parameter on the screen
+};
+
+inline Placed place(const PlaneSegment& s, int column, int row) {
+  const Vec2 from_a = Vec2{column + 0.5, row + 0.5} - s.a;
+  const double y = dot(from_a, s.t);
+  return {dot(from_a, s.n), y, std::clamp(y / s.l, 0.0, 1.0)};
+}
+
+// The segment parameter in 3-D and the depth there.
+struct Along {
+  double u, depth;
+};
+inline Along along(const ScreenSegment& s, double v, bool perspective) {
+  if (!perspective) return {v, mix(s.depth_a, s.depth_b, v)};
+  const double depth = 1 / ((1 - v) / s.depth_a + v / s.depth_b);
+  return {v * depth / s.depth_b, depth};
+}
+
 }  // namespace forelock::reference

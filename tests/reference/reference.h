@@ -6,6 +6,7 @@
 #include "reference_scene.h"
 
 #include <concepts>
+#include <optional>
 #include <string>
 
 namespace forelock::reference {
@@ -20,6 +21,8 @@ struct Fragment {
   Vec3 tangent;     // unit, VIEW space, towards the tip; zero where the two ends cancel
   uint32_t slot;
   uint32_t sequence;  // the segment's number over the scene in submission order: unique in a pixel
+  bool has_color = false;  // else it has the material's
+  std::array<double, 3> color{};
 };
 
 // Pixel (x, y) owns fragments[first[y * width + x]] .. first[... + 1], in submission order.
@@ -37,15 +40,34 @@ struct FragmentLists {
 // What a node keeps of a fragment (section 3). `unquantised` keeps float64 and drops only alpha = 0.
 enum class Payload { unquantised, standard, paper };
 
+// Opacity modifiers of section 2.
+struct NearFade {
+  double start = 0, end = 1;  // metre; gone before start, whole beyond end
+};
+struct Lens {
+  double x = 0, y = 0;  // centre, pixels from the target's corner
+  double radius = 0, feather = 1;  // pixels
+  double inside = 0;    // factor in the middle
+};
+struct OpacityModifiers {
+  std::optional<NearFade> near_fade{};
+  std::optional<Lens> lens{};
+};
+// x, y: the pixel's centre.
+double opacityModifier(const OpacityModifiers& modifiers, double x, double y, double depth);
+
 struct GatherOptions {
   std::span<const double> host_depth{};  // linear depth per pixel, row-major; empty: nothing before the hair
   Payload payload = Payload::unquantised;
   int threads = 2;
+  OpacityModifiers modifiers{};
 };
 FragmentLists gatherFragments(const Scene& scene, const Camera& camera, const GatherOptions& options = {});
 // Decoded after coding; alpha 0 means dropped.
 double codedAlpha(double alpha, Payload payload);
 Vec3 codedTangent(Vec3 tangent, Payload payload);
+// Nine bits a channel and a shared exponent of five (bias 15, no sign), but for unquantised.
+std::array<double, 3> codedColor(const std::array<double, 3>& color, Payload payload);
 // Octahedral, the first component in the low bits; all bits set for the zero tangent. bits: of a component.
 uint32_t tangentCode(Vec3 tangent, int bits);
 Vec3 tangentOf(uint32_t code, int bits);

@@ -64,6 +64,7 @@ double pixelHalfArea(double t, double nx, double ny) {
 FragmentLists gatherFragments(const Scene& scene, const Camera& camera, const GatherOptions& options) {
   const std::vector<ScreenSegment> segments = screenSegments(scene, camera, 1, false);
   const bool perspective = isPerspective(camera);
+  const bool colored = hasColors(scene);
   const Binned binned = binSegments(segments, camera.height, band_rows);
   const int bands = int(binned.bands.size());
 
@@ -85,13 +86,18 @@ FragmentLists gatherFragments(const Scene& scene, const Camera& camera, const Ga
         const double coverage = coverageAt(s, at);
         const Along where = along(s, at.v, perspective);
         const double fraction = mix(s.fraction_a, s.fraction_b, where.u);
-        const double alpha = std::clamp(coverage * opacityAt(hair.material, fraction), 0.0, 1.0);
+        const double modifier = opacityModifier(options.modifiers, column + 0.5, row + 0.5, where.depth);
+        const double alpha = std::clamp(coverage * opacityAt(hair.material, fraction) * modifier, 0.0, 1.0);
         const double coded = codedAlpha(alpha, options.payload);
         if (!(coded > 0)) return;
         const size_t pixel = size_t(row) * size_t(camera.width) + size_t(column);
         if (!options.host_depth.empty() && !(where.depth <= options.host_depth[pixel])) return;
         const Vec3 tangent = normalizeOrZero(mix(s.tangent_a, s.tangent_b, where.u));
         found.push_back({where.depth, coded, coverage, codedTangent(tangent, options.payload), hair.slot, s.sequence});
+        if (colored) {
+          found.back().has_color = true;
+          found.back().color = codedColor(fibreColor(hair.material, s, where.u, fraction), options.payload);
+        }
         const uint32_t local = uint32_t(pixel - size_t(row_begin) * size_t(camera.width));
         pixel_of.push_back(local);
         ++count[local];

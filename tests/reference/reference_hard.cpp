@@ -30,6 +30,7 @@ struct Candidate {
 
 FragmentLists gatherHard(const Scene& scene, const Camera& camera, const GatherOptions& options) {
   const bool perspective = isPerspective(camera);
+  const bool colored = hasColors(scene);
   std::vector<std::optional<Candidate>> nearest(size_t(camera.width) * size_t(camera.height));
   for (const ScreenSegment& s : screenSegments(scene, camera, 1, false)) {
     forEachCell(s.plane.corner, camera.width, 0, camera.height, [&](int column, int row) {
@@ -38,6 +39,7 @@ FragmentLists gatherHard(const Scene& scene, const Camera& camera, const GatherO
       const size_t pixel = size_t(row) * size_t(camera.width) + size_t(column);
       const Along where = along(s, at.v, perspective);
       if (!options.host_depth.empty() && !(where.depth <= options.host_depth[pixel])) return;
+      if (opacityModifier(options.modifiers, column + 0.5, row + 0.5, where.depth) < 0.5) return;
       Candidate found{};
       Fragment& f = found.fragment;
       f.depth = where.depth;
@@ -45,6 +47,10 @@ FragmentLists gatherHard(const Scene& scene, const Camera& camera, const GatherO
       f.tangent = normalizeOrZero(mix(s.tangent_a, s.tangent_b, where.u));
       f.slot = scene.hairs[s.hair].slot;
       f.sequence = s.sequence;
+      if (colored) {
+        f.has_color = true;
+        f.color = fibreColor(scene.hairs[s.hair].material, s, where.u, mix(s.fraction_a, s.fraction_b, where.u));
+      }
       found.code = tangentCode(f.tangent, hard_tangent_bits);
       if (options.payload != Payload::unquantised) f.tangent = tangentOf(found.code, hard_tangent_bits);
       if (!nearest[pixel] || found.nearerThan(*nearest[pixel])) nearest[pixel] = found;

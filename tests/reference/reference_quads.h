@@ -71,12 +71,16 @@ struct ScreenSegment {
   double depth_a = 0, depth_b = 0;
   double fraction_a = 0, fraction_b = 0;
   Vec3 tangent_a, tangent_b;  // view space
+  Vec3 color_a, color_b;      // of the vertices
   uint32_t hair = 0;          // index in the scene
   uint32_t sequence = 0;
 };
 
 // All quads of the scene in submission order. scale multiplies the pixel grid; flush as above.
 std::vector<ScreenSegment> screenSegments(const Scene& scene, const Camera& camera, double scale, bool flush);
+
+// The fibre's colour of section 2.
+std::array<double, 3> fibreColor(const Material& material, const ScreenSegment& segment, double u, double fraction);
 
 // Where a pixel centre lies in a segment.
 struct Placed {

@@ -25,6 +25,8 @@ struct Material {
   double cuticle_tilt = 0;     // radian
   double shadow_opacity = 0.5; // opacity of one fibre, `a` of section 4
   double fibre_spacing = 1e-4; // metre, `s` of section 4
+  double tip_color[3] = {0.5, 0.5, 0.5};
+  double tip_blend = 0;        // [0, 1] share of tip_color at the tip, linear in the arc-length fraction
 };
 
 // Polylines, root first. Strand i owns the vertices first_vertex[i] .. first_vertex[i + 1] - 1.
@@ -33,12 +35,13 @@ struct Strands {
   std::vector<Vec3> positions;   // world, metre
   std::vector<double> radii;     // metre, before width_scale
   std::vector<double> fraction;  // arc length from the root over the strand's length; setFractions fills it
+  std::vector<Vec3> colors{};    // linear RGB per vertex, a factor of the material's; empty: 1
 
   size_t count() const { return first_vertex.size() - 1; }
 };
 
 void setFractions(Strands& strands);
-// Appends one strand and its fractions.
+// Appends one strand and its fractions; its colours are 1 where the strands before have any.
 void addStrand(Strands& strands, std::span<const Vec3> positions, std::span<const double> radii);
 void addStrand(Strands& strands, std::span<const Vec3> positions, double radius);
 
@@ -47,6 +50,20 @@ struct Hair {
   Material material;
   uint32_t slot = 0;  // [0, 62], unique in the scene
 };
+
+// Colours that vary along or between its strands: a frame with such a hair keeps the colour in every node.
+bool hasColors(const Hair& hair);
+bool hasColors(const struct Scene& scene);
+
+// Linear RGB, row 0 at v = 0.
+struct ColorImage {
+  int width = 0, height = 0;
+  std::vector<Vec3> texels{};
+};
+// Bilinear between texel centres, clamped at the border.
+Vec3 sampleColor(const ColorImage& image, double u, double v);
+// Multiplies the vertex colours of strand i by the image at root_uv[i].
+void applyRootColors(Strands& strands, const ColorImage& image, std::span<const std::array<double, 2>> root_uv);
 
 // Matrices are column-major; view_from_world is a rigid motion; clip space is Vulkan's (conventions.md).
 struct Camera {

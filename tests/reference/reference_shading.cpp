@@ -48,6 +48,12 @@ std::array<double, 3> shadeFragmentLit(const Scene& scene, const Camera& camera,
     if (hair.slot == fragment.slot) material = &hair.material;
   }
   if (!material) return {};
+  Material coloured;
+  if (fragment.has_color) {
+    coloured = *material;
+    for (size_t c = 0; c < 3; ++c) coloured.color[c] = fragment.color[c];
+    material = &coloured;
+  }
   const double* m = camera.view_from_world;
   auto toWorld = [m](Vec3 v) {
     return Vec3{m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,

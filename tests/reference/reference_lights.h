@@ -58,4 +58,11 @@ struct Arriving {
 };
 Arriving arrivingLight(const Light& light, Vec3 position);
 
+// The share of a light that a host's shadow map lets through to the world point.
+double hostShadowLight(const HostShadow& shadow, Vec3 position);
+// False where the tile of the pixel masks the light out; a light beyond the words reaches nothing.
+bool lightReaches(const LightTiles& tiles, size_t light, int x, int y);
+// A(T) of section 5; tangent: unit, world, or zero.
+std::array<double, 3> ambientLight(const Scene& scene, Vec3 tangent);
+
 }  // namespace forelock::reference

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -72,6 +73,16 @@ struct Camera {
   int width = 0, height = 0;
 };
 
+// A shadow map of the host, compared at the four texels around a fragment (section 4).
+struct HostShadow {
+  int width = 0, height = 0;
+  std::vector<float> values{};         // row-major
+  double texel_from_world[16] = {};    // column-major, projective: texel position (centres at +0.5) and compared value
+  int left = 0, top = 0, right = 0, bottom = 0;  // the light's texels: right and bottom are beyond the last
+  double bias = 0;                     // in the unit of the values
+  bool reversed = false;               // lit where the value is not less
+};
+
 enum class LightKind { directional, point, spot };
 
 // Section 4. radiance of a point or spot light is what arrives at one metre.
@@ -86,12 +97,24 @@ struct Light {
   double source_radius = 0;   // metre; nearer than this it grows no brighter
   Vec3 axis{0, -1, 0};        // spot: unit, world, from the light to the scene
   double inner_angle = 0, outer_angle = 0.785398163397448;  // spot: half angles, radian
+  std::optional<HostShadow> host_shadow{};
+  std::vector<double> visibility{};  // a factor per pixel of the target, row-major; empty: 1
+};
+
+// Bit b of word (layer * tiles_y + y) * tiles_x + x: light 32 layer + b reaches the pixels of tile (x, y).
+struct LightTiles {
+  int tile_size = 0;  // pixels along an edge; 0: every light reaches every pixel
+  int tiles_x = 0, tiles_y = 0;
+  std::vector<uint32_t> words{};
 };
 
 struct Scene {
   std::vector<Hair> hairs;  // in submission order
   std::vector<Light> lights;
   double ambient[3] = {0, 0, 0};
+  // Nine coefficients of three channels; world space, order 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22.
+  std::optional<std::array<std::array<double, 3>, 9>> ambient_sh{};
+  LightTiles light_tiles{};
 };
 
 // Projections of conventions.md. The depth range is standard or reversed; offset moves the centre, in NDC.

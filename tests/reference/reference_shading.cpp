@@ -64,12 +64,16 @@ std::array<double, 3> shadeFragmentLit(const Scene& scene, const Camera& camera,
   Vec3 to_eye = toWorld({0, 0, 1});
   if (isPerspective(camera)) to_eye = normalizeOrZero(toWorld({-m[12], -m[13], -m[14]}) - position);
 
-  std::array<double, 3> out{};
-  for (size_t c = 0; c < 3; ++c) out[c] = scene.ambient[c] * material->kd * material->color[c];
+  std::array<double, 3> out = ambientLight(scene, tangent);
+  for (size_t c = 0; c < 3; ++c) out[c] *= material->kd * material->color[c];
   for (size_t i = 0; i < scene.lights.size(); ++i) {
-    const Arriving arriving = arrivingLight(scene.lights[i], position);
+    const Light& light = scene.lights[i];
+    if (!lightReaches(scene.light_tiles, i, x, y)) continue;
+    const Arriving arriving = arrivingLight(light, position);
     if (isZero(arriving.to_light)) continue;  // in the light itself
-    const double reaching = i < faces.size() ? shadowLight(faces[i], *material, position, tangent, full) : 1;
+    double reaching = i < faces.size() ? shadowLight(faces[i], *material, position, tangent, full) : 1;
+    if (light.host_shadow) reaching *= hostShadowLight(*light.host_shadow, position);
+    if (!light.visibility.empty()) reaching *= light.visibility[size_t(y) * size_t(camera.width) + size_t(x)];
     const auto lobes = shadeLobes(*material, {tangent, arriving.to_light, to_eye}, full);
     for (size_t c = 0; c < 3; ++c) out[c] += arriving.radiance[c] * reaching * lobes[c];
   }

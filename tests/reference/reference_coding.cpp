@@ -29,7 +29,8 @@ uint32_t tangentCode(Vec3 tangent, int bits) {
   if (!(sum > 0)) return uint32_t((uint64_t(1) << (2 * bits)) - 1);
   double u = tangent.x / sum, v = tangent.y / sum;
   if (tangent.z < 0) fold(u, v);
-  const auto low = uint32_t(std::floor((u + 1) / 2 * steps + 0.5)), high = uint32_t(std::floor((v + 1) / 2 * steps + 0.5));
+  const auto low = uint32_t(std::floor((u + 1) / 2 * steps + 0.5)),
+             high = uint32_t(std::floor((v + 1) / 2 * steps + 0.5));
   return low | high << bits;
 }
 

@@ -40,8 +40,8 @@ std::array<double, 3> ambientLight(const Scene& scene, Vec3 tangent) {
   const auto [x, y, z] = tangent;
   // Y_2m in the order of m; a zero tangent sees the mean alone.
   const double y2[5] = {std::sqrt(15 / (4 * pi)) * x * y, std::sqrt(15 / (4 * pi)) * y * z,
-                  std::sqrt(5 / (16 * pi)) * (3 * z * z - 1), std::sqrt(15 / (4 * pi)) * x * z,
-                  std::sqrt(15 / (16 * pi)) * (x * x - y * y)};
+                        std::sqrt(5 / (16 * pi)) * (3 * z * z - 1), std::sqrt(15 / (4 * pi)) * x * z,
+                        std::sqrt(15 / (16 * pi)) * (x * x - y * y)};
   const bool valid = !isZero(tangent) && std::isfinite(x + y + z);
   std::array<double, 3> out{};
   for (size_t c = 0; c < 3; ++c) {

@@ -20,9 +20,9 @@ struct ShadowMap {
   double texel = 0, rho = 0;  // metre; perspective: the texel is v.z / focal and this one 0
   Vec3 center, x, y, z;       // world
   std::vector<float> depth{};
-  double focal = 0;           // texels
-  double near_depth = 0;      // metre along z: what is nearer casts no shadow and gets none
-  Vec3 origin{};              // the light, world
+  double focal = 0;       // texels
+  double near_depth = 0;  // metre along z: what is nearer casts no shadow and gets none
+  Vec3 origin{};          // the light, world
 };
 
 // None (all lit), one, or six in the order +x, -x, +y, -y, +z, -z of the world.

@@ -16,9 +16,9 @@ struct Motion {
 // Of a pixel without a fragment: written is false and the rest meaningless.
 struct OutputPixel {
   bool written = false;
-  double front_depth = 0;           // of the nearest fragment, metre
+  double front_depth = 0;  // of the nearest fragment, metre
   double transmittance = 1;
-  double velocity[2] = {0, 0};      // pixels, now less before; 0 where the point was behind the camera
+  double velocity[2] = {0, 0};  // pixels, now less before; 0 where the point was behind the camera
   double depth_min = 0, depth_max = 0;
 };
 

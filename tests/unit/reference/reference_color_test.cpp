@@ -79,8 +79,8 @@ TEST(ReferenceColor, RootImage) {
   ColorImage image{2, 2, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}};
   EXPECT_EQ(sampleColor(image, 0.25, 0.25).x, 1);
   EXPECT_EQ(sampleColor(image, 0.25, 0.25).y, 0);
-  EXPECT_EQ(sampleColor(image, 0.75, 0.25).y, 1);   // row 0 at v = 0
-  EXPECT_EQ(sampleColor(image, -3, 9).z, 1);        // clamped
+  EXPECT_EQ(sampleColor(image, 0.75, 0.25).y, 1);  // row 0 at v = 0
+  EXPECT_EQ(sampleColor(image, -3, 9).z, 1);       // clamped
   EXPECT_NEAR(sampleColor(image, 0.5, 0.5).x, 0.5, 1e-15);
   EXPECT_NEAR(sampleColor(image, 0.375, 0.25).x, 0.75, 1e-15);
   Strands strands;
@@ -115,7 +115,7 @@ TEST(ReferenceColor, SharedExponentBound) {
   const auto coded = codedColor({1, 0.5, 0.001}, Payload::standard);
   EXPECT_EQ(coded[0], 1);
   EXPECT_EQ(coded[1], 0.5);
-  EXPECT_EQ(coded[2], 0);  // under half of 1/256
+  EXPECT_EQ(coded[2], 0);                                          // under half of 1/256
   EXPECT_EQ(codedColor({0.9999, 0, 0}, Payload::standard)[0], 1);  // rounds to the next exponent
   EXPECT_EQ(codedColor({1e9, -1, 0}, Payload::standard)[0], 65408);
   EXPECT_EQ(codedColor({1e9, -1, 0}, Payload::standard)[1], 0);

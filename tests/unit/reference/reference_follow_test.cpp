@@ -12,7 +12,8 @@ Strands someGuides(int count) {
   Strands guides;
   for (int i = 0; i < count; ++i) {
     std::vector<Vec3> points{{normal(random), normal(random), normal(random)}};
-    for (int v = 0; v < 4; ++v) points.push_back(points.back() + 0.1 * Vec3{normal(random), normal(random), normal(random)});
+    for (int v = 0; v < 4; ++v)
+      points.push_back(points.back() + 0.1 * Vec3{normal(random), normal(random), normal(random)});
     addStrand(guides, points, 1e-3 * (i + 1));
   }
   return guides;

@@ -7,9 +7,15 @@ namespace {
 
 // Y_lm in the order of the coefficients, as Ramamoorthi and Hanrahan print them.
 std::array<double, 9> harmonics(Vec3 d) {
-  return {0.282095,           0.488603 * d.y,       0.488603 * d.z,
-          0.488603 * d.x,     1.092548 * d.x * d.y, 1.092548 * d.y * d.z,
-          0.315392 * (3 * d.z * d.z - 1), 1.092548 * d.x * d.z, 0.546274 * (d.x * d.x - d.y * d.y)};
+  return {0.282095,
+          0.488603 * d.y,
+          0.488603 * d.z,
+          0.488603 * d.x,
+          1.092548 * d.x * d.y,
+          1.092548 * d.y * d.z,
+          0.315392 * (3 * d.z * d.z - 1),
+          1.092548 * d.x * d.z,
+          0.546274 * (d.x * d.x - d.y * d.y)};
 }
 
 Vec3 randomDirection(std::mt19937& random) {
@@ -107,10 +113,10 @@ TEST(ReferenceHostShadow, Projective) {
   s.texel_from_world[11] = -1;  // w = -z
   s.texel_from_world[15] = 0;
   s.texel_from_world[10] = 0;
-  s.texel_from_world[14] = 1;  // value 1 / -z
-  EXPECT_EQ(hostShadowLight(s, {6, 4, -2}), 1);     // texel (3, 2), value 0.5
-  EXPECT_EQ(hostShadowLight(s, {3, 2, -1}), 0);     // value 1
-  EXPECT_EQ(hostShadowLight(s, {3, 2, 1}), 1);      // behind
+  s.texel_from_world[14] = 1;                    // value 1 / -z
+  EXPECT_EQ(hostShadowLight(s, {6, 4, -2}), 1);  // texel (3, 2), value 0.5
+  EXPECT_EQ(hostShadowLight(s, {3, 2, -1}), 0);  // value 1
+  EXPECT_EQ(hostShadowLight(s, {3, 2, 1}), 1);   // behind
   EXPECT_EQ(hostShadowLight(s, {3, 2, 0}), 1);
 }
 
@@ -128,9 +134,9 @@ TEST(ReferenceHostShadow, InTheImage) {
   auto red = [&](int x) { return resolve(scene, camera, {}, lists).at(x, 16).rgb[0]; };
   EXPECT_NEAR(red(10), 2, 1e-14);  // two lights of 2 on a colour of 0.5
   HostShadow s = flatShadow();
-  s.right = 4;                    // the world's x from 0 to 4: pixels 16 to 20
+  s.right = 4;  // the world's x from 0 to 4: pixels 16 to 20
   s.texel_from_world[13] = 2;
-  s.texel_from_world[14] = 1;     // value 1 > 0.5
+  s.texel_from_world[14] = 1;  // value 1 > 0.5
   scene.lights[0].host_shadow = s;
   EXPECT_NEAR(red(10), 2, 1e-14);
   EXPECT_NEAR(red(17), 1, 1e-14);
@@ -142,8 +148,8 @@ TEST(ReferenceHostShadow, InTheImage) {
   // 40 lights: two layers of words, tiles of 16 pixels.
   scene.lights.assign(40, sun);
   scene.light_tiles = {16, 2, 2, std::vector<uint32_t>(8, 0)};
-  scene.light_tiles.words[2] = 0b1011;          // layer 0, tile (0, 1)
-  scene.light_tiles.words[4 + 3] = 0xff;        // layer 1, tile (1, 1)
+  scene.light_tiles.words[2] = 0b1011;    // layer 0, tile (0, 1)
+  scene.light_tiles.words[4 + 3] = 0xff;  // layer 1, tile (1, 1)
   EXPECT_NEAR(red(15), 3, 1e-14);
   EXPECT_NEAR(red(16), 8, 1e-13);
   EXPECT_FALSE(lightReaches(scene.light_tiles, 2, 0, 16));

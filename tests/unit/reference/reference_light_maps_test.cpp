@@ -25,8 +25,8 @@ Hair shell(double radius) {
     std::vector<Vec3> points;
     for (int k = 0; k <= 720; ++k) {
       const double a = k * std::numbers::pi / 360;
-      points.push_back({radius * std::sin(polar) * std::cos(a), radius * std::sin(polar) * std::sin(a),
-                        radius * std::cos(polar)});
+      points.push_back(
+          {radius * std::sin(polar) * std::cos(a), radius * std::sin(polar) * std::sin(a), radius * std::cos(polar)});
     }
     addStrand(hair.strands, points, 0.0105 * radius);
   }
@@ -79,7 +79,7 @@ TEST(ReferenceLightMaps, SixFacesCloseWithoutASeam) {
   double worst = 0;
   for (int i = 0; i < 20000; ++i) {
     Vec3 d{normal(random), normal(random), normal(random)};
-    if (i % 4 == 1) d.y = d.x * (1 + 1e-9 * normal(random));  // an edge of the cube
+    if (i % 4 == 1) d.y = d.x * (1 + 1e-9 * normal(random));                         // an edge of the cube
     if (i % 4 == 2) d = {1, -1 + 1e-3 * normal(random), 1 + 1e-3 * normal(random)};  // a corner
     d = normalizeOrZero(d);
     if (std::hypot(d.x, d.y) < 0.02) continue;  // circles of few texels at the poles have holes
@@ -110,7 +110,8 @@ TEST(ReferenceLightMaps, DepthIsTheWayOfTheLight) {
       const double got = double(map.depth[size_t(row) * size_t(map.size) + size_t(column)]);
       if (!std::isfinite(got)) continue;
       ++written;
-      const Vec3 ray = (column + 0.5 - map.size / 2.0) / map.focal * map.x + (row + 0.5 - map.size / 2.0) / map.focal * map.y + map.z;
+      const Vec3 ray = (column + 0.5 - map.size / 2.0) / map.focal * map.x +
+                       (row + 0.5 - map.size / 2.0) / map.focal * map.y + map.z;
       // The point of the strand in the plane through the ray that is square to strand and ray.
       const Vec3 square = cross(ray, cross(ray, b - a));
       const double t = dot(light.position - a, square) / dot(b - a, square);
@@ -141,7 +142,7 @@ TEST(ReferenceLightMaps, CutAtNear) {
   EXPECT_GT(count(maps.faces[0]), 50);  // the right half of one strand
   EXPECT_GT(count(maps.faces[1]), 50);  // its left half, and the other
   EXPECT_GT(count(maps.faces[5]), 100);
-  EXPECT_EQ(count(maps.faces[4]), 0);   // nothing above the light
+  EXPECT_EQ(count(maps.faces[4]), 0);  // nothing above the light
   for (const float d : maps.faces[0].depth) EXPECT_GE(d, 0.5f - 1e-6f);
 }
 

@@ -77,8 +77,8 @@ TEST(ReferenceMethods, DeterministicTailOfOneColorIsTheList) {
 
 TEST(ReferenceMethods, DeterministicTailInClosedForm) {
   Stack stack;
-  stack.add(1, 0.5, 0.3);    // tau 1
-  stack.add(2, 0.75, 0.6);   // tau 2
+  stack.add(1, 0.5, 0.3);          // tau 1
+  stack.add(2, 0.75, 0.6);         // tau 2
   stack.add(3, 1 - 1.0 / 8, 0.1);  // tau 3
   const double mean = (0.3 + 2 * 0.6 + 3 * 0.1) / 6, t = 1.0 / 64;
   EXPECT_NEAR(stack.resolved(Method::all_low, 0, TailOrder::deterministic).rgb[0], (1 - t) * mean, 1e-15);
@@ -90,8 +90,8 @@ TEST(ReferenceMethods, DeterministicTailInClosedForm) {
   // Nearest two in the core, the rest by weight.
   EXPECT_NEAR(stack.resolved(Method::core_tail, 2, TailOrder::deterministic).rgb[0],
               0.5 * 0.3 + 0.5 * 0.75 * 0.6 + 0.125 * (3 * 0.1 + 12 * 0.9) / 15, 1e-15);
-  EXPECT_NEAR(stack.resolved(Method::core_only, 2, TailOrder::deterministic).rgb[0],
-              0.5 * 0.3 + 0.5 * 0.75 * 0.6, 1e-15);
+  EXPECT_NEAR(stack.resolved(Method::core_only, 2, TailOrder::deterministic).rgb[0], 0.5 * 0.3 + 0.5 * 0.75 * 0.6,
+              1e-15);
 }
 
 Scene strandsAcross(const Camera& camera, int count) {
@@ -104,9 +104,10 @@ Scene strandsAcross(const Camera& camera, int count) {
   m.opacity_root = m.opacity_tip = 0.5;
   m.exponent_r = 5;
   for (int i = 0; i < count; ++i) {
-    addLine(scene.hairs[0], camera,
-            std::vector<Point>{{uniform(random) * 32, uniform(random) * 32}, {uniform(random) * 32, uniform(random) * 32}},
-            3, uniform(random) * 10);
+    addLine(
+        scene.hairs[0], camera,
+        std::vector<Point>{{uniform(random) * 32, uniform(random) * 32}, {uniform(random) * 32, uniform(random) * 32}},
+        3, uniform(random) * 10);
   }
   scene.lights.push_back({{0.6, 0, 0.8}, {1, 1, 1}, false, 64});
   return scene;
@@ -134,7 +135,8 @@ TEST(ReferenceMethods, HardIsAtLeastAPixelWide) {
       scene.hairs.resize(1);
       scene.hairs[0].material.opacity_root = scene.hairs[0].material.opacity_tip = 0.01;  // does not count
       const double a = radians(degrees), dx = 20 * std::cos(a), dy = 20 * std::sin(a);
-      addLine(scene.hairs[0], camera, std::vector<Point>{{32.3 - dx, 32.4 - dy}, {32.3, 32.4}, {32.3 + dx, 32.4 + dy}}, width);
+      addLine(scene.hairs[0], camera, std::vector<Point>{{32.3 - dx, 32.4 - dy}, {32.3, 32.4}, {32.3 + dx, 32.4 + dy}},
+              width);
       const FragmentLists lists = gatherHard(scene, camera);
       const double area = 40 * std::max(width, 1.0);
       // Pixel centres of a rectangle; along a diagonal they would all meet its sides at one phase.

@@ -107,7 +107,8 @@ TEST(ReferenceOutputs, BehindTheCameraBeforeIsStill) {
   scene.hairs.resize(1);
   const Vec3 ends[2] = {{-1, 0, 0}, {1, 0, 0}};
   addStrand(scene.hairs[0].strands, ends, 0.3);
-  const auto out = outputsOf(scene, now, gatherFragments(scene, now), {makeCamera({0, 0, -3}, {0, 0, -6}, {0, 1, 0}, {}, 16, 16)});
+  const auto out =
+      outputsOf(scene, now, gatherFragments(scene, now), {makeCamera({0, 0, -3}, {0, 0, -6}, {0, 1, 0}, {}, 16, 16)});
   EXPECT_TRUE(out[8 * 16 + 8].written);
   EXPECT_EQ(out[8 * 16 + 8].velocity[0], 0);
 }

@@ -32,6 +32,7 @@ void addStrand(Strands& strands, std::span<const Vec3> positions, std::span<cons
   strands.first_vertex.push_back(uint32_t(strands.positions.size()));
   strands.fraction.resize(strands.positions.size(), 0.0);
   setStrandFractions(strands, begin, strands.positions.size());
+  if (!strands.colors.empty()) strands.colors.resize(strands.positions.size(), {1, 1, 1});
 }
 
 void addStrand(Strands& strands, std::span<const Vec3> positions, double radius) {

@@ -1,4 +1,4 @@
-// Coverage (section 2), the coding of section 3, the fragment lists, and the supersampled R_cover.
+// Coverage (section 2), the fragment lists, and the supersampled R_cover.
 #include "reference_quads.h"
 
 namespace forelock::reference {
@@ -32,16 +32,6 @@ Binned binSegments(const std::vector<ScreenSegment>& segments, int rows, int row
 
 double signOf(double t) { return t > 0 ? 1 : t < 0 ? -1 : 0; }
 
-struct Placed {
-  double x, y, v;  // along n, along t, clamped segment parameter on the screen
-};
-
-Placed place(const PlaneSegment& s, int column, int row) {
-  const Vec2 from_a = Vec2{column + 0.5, row + 0.5} - s.a;
-  const double y = dot(from_a, s.t);
-  return {dot(from_a, s.n), y, std::clamp(y / s.l, 0.0, 1.0)};
-}
-
 double coverageAt(const ScreenSegment& segment, const Placed& at) {
   const PlaneSegment& s = segment.plane;
   const double h = mix(s.h_a, s.h_b, at.v);
@@ -54,16 +44,6 @@ double coverageAt(const ScreenSegment& segment, const Placed& at) {
   const double root = pixelHalfArea(from_root, s.t.x, s.t.y) + 0.5;
   const double tip = pixelHalfArea(to_tip, s.t.x, s.t.y) + 0.5;
   return s.share * strip * std::max(root + tip - 1, 0.0);
-}
-
-// The segment parameter in 3-D and the depth there.
-struct Along {
-  double u, depth;
-};
-Along along(const ScreenSegment& s, double v, bool perspective) {
-  if (!perspective) return {v, mix(s.depth_a, s.depth_b, v)};
-  const double depth = 1 / ((1 - v) / s.depth_a + v / s.depth_b);
-  return {v * depth / s.depth_b, depth};
 }
 
 double opacityAt(const Material& material, double fraction) {
@@ -81,37 +61,10 @@ double pixelHalfArea(double t, double nx, double ny) {
   return signOf(t) * (0.5 - rest * rest / (2 * a * b));
 }
 
-double codedAlpha(double alpha, Payload payload) {
-  if (payload == Payload::standard) {
-    const double q = std::floor(std::sqrt(alpha) * 1023 + 0.5) / 1023;
-    return q * q;
-  }
-  if (payload == Payload::paper) return alpha < 1.0 / 255 ? 0 : std::floor(alpha * 255 + 0.5) / 255;
-  return alpha;
-}
-
-Vec3 codedTangent(Vec3 tangent, Payload payload) {
-  if (payload == Payload::unquantised) return tangent;
-  const double steps = payload == Payload::standard ? 2046 : 4094;  // 2^bits - 2
-  const double sum = std::fabs(tangent.x) + std::fabs(tangent.y) + std::fabs(tangent.z);
-  if (!(sum > 0)) return {};  // has a code of its own
-  double u = tangent.x / sum, v = tangent.y / sum;
-  auto fold = [](double& p, double& q) {
-    const double old = p;
-    p = (1 - std::fabs(q)) * (p >= 0 ? 1 : -1);
-    q = (1 - std::fabs(old)) * (q >= 0 ? 1 : -1);
-  };
-  if (tangent.z < 0) fold(u, v);
-  u = std::floor((u + 1) / 2 * steps + 0.5) / steps * 2 - 1;
-  v = std::floor((v + 1) / 2 * steps + 0.5) / steps * 2 - 1;
-  const double z = 1 - std::fabs(u) - std::fabs(v);
-  if (z < 0) fold(u, v);
-  return normalizeOrZero({u, v, z});
-}
-
 FragmentLists gatherFragments(const Scene& scene, const Camera& camera, const GatherOptions& options) {
   const std::vector<ScreenSegment> segments = screenSegments(scene, camera, 1, false);
   const bool perspective = isPerspective(camera);
+  const bool colored = hasColors(scene);
   const Binned binned = binSegments(segments, camera.height, band_rows);
   const int bands = int(binned.bands.size());
 
@@ -133,13 +86,18 @@ FragmentLists gatherFragments(const Scene& scene, const Camera& camera, const Ga
         const double coverage = coverageAt(s, at);
         const Along where = along(s, at.v, perspective);
         const double fraction = mix(s.fraction_a, s.fraction_b, where.u);
-        const double alpha = std::clamp(coverage * opacityAt(hair.material, fraction), 0.0, 1.0);
+        const double modifier = opacityModifier(options.modifiers, column + 0.5, row + 0.5, where.depth);
+        const double alpha = std::clamp(coverage * opacityAt(hair.material, fraction) * modifier, 0.0, 1.0);
         const double coded = codedAlpha(alpha, options.payload);
         if (!(coded > 0)) return;
         const size_t pixel = size_t(row) * size_t(camera.width) + size_t(column);
         if (!options.host_depth.empty() && !(where.depth <= options.host_depth[pixel])) return;
         const Vec3 tangent = normalizeOrZero(mix(s.tangent_a, s.tangent_b, where.u));
         found.push_back({where.depth, coded, coverage, codedTangent(tangent, options.payload), hair.slot, s.sequence});
+        if (colored) {
+          found.back().has_color = true;
+          found.back().color = codedColor(fibreColor(hair.material, s, where.u, fraction), options.payload);
+        }
         const uint32_t local = uint32_t(pixel - size_t(row_begin) * size_t(camera.width));
         pixel_of.push_back(local);
         ++count[local];

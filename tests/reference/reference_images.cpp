@@ -1,4 +1,4 @@
-// Metrics of section 7 and the writer for failing tests.
+// Metrics of section 8 and the writer for failing tests.
 #include "reference.h"
 
 #include <algorithm>

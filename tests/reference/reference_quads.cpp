@@ -12,10 +12,12 @@ struct ViewVertex {
   Vec3 p;  // view space
   double radius = 0, fraction = 0;
   Vec3 tangent;
+  Vec3 color{1, 1, 1};
 };
 
 ViewVertex mixVertex(const ViewVertex& a, const ViewVertex& b, double t) {
-  return {mix(a.p, b.p, t), mix(a.radius, b.radius, t), mix(a.fraction, b.fraction, t), mix(a.tangent, b.tangent, t)};
+  return {mix(a.p, b.p, t), mix(a.radius, b.radius, t), mix(a.fraction, b.fraction, t), mix(a.tangent, b.tangent, t),
+          mix(a.color, b.color, t)};
 }
 
 // The tangent of a vertex as its segment `own` sees it, `other` being the direction beyond the vertex or zero.
@@ -171,6 +173,7 @@ std::vector<ScreenSegment> screenSegments(const Scene& scene, const Camera& came
                          m[2] * w.x + m[6] * w.y + m[10] * w.z + m[14]};
         vertices[i].radius = strands.radii[begin + i] * hair.material.width_scale;
         vertices[i].fraction = strands.fraction[begin + i];
+        if (!strands.colors.empty()) vertices[i].color = strands.colors[begin + i];
       }
       directions.assign(count, {});
       for (size_t i = 0; i < count; ++i) directions[i] = normalizeOrZero(vertices[i + 1].p - vertices[i].p);
@@ -225,6 +228,8 @@ std::vector<ScreenSegment> screenSegments(const Scene& scene, const Camera& came
         segment.fraction_b = ends[i][1].fraction;
         segment.tangent_a = ends[i][0].tangent;
         segment.tangent_b = ends[i][1].tangent;
+        segment.color_a = ends[i][0].color;
+        segment.color_b = ends[i][1].color;
         segment.hair = hair_index;
         segment.sequence = sequence;
       }

@@ -71,11 +71,36 @@ struct ScreenSegment {
   double depth_a = 0, depth_b = 0;
   double fraction_a = 0, fraction_b = 0;
   Vec3 tangent_a, tangent_b;  // view space
+  Vec3 color_a, color_b;      // of the vertices
   uint32_t hair = 0;          // index in the scene
   uint32_t sequence = 0;
 };
 
 // All quads of the scene in submission order. scale multiplies the pixel grid; flush as above.
 std::vector<ScreenSegment> screenSegments(const Scene& scene, const Camera& camera, double scale, bool flush);
+
+// The fibre's colour of section 2.
+std::array<double, 3> fibreColor(const Material& material, const ScreenSegment& segment, double u, double fraction);
+
+// Where a pixel centre lies in a segment.
+struct Placed {
+  double x, y, v;  // along n, along t, clamped segment parameter on the screen
+};
+
+inline Placed place(const PlaneSegment& s, int column, int row) {
+  const Vec2 from_a = Vec2{column + 0.5, row + 0.5} - s.a;
+  const double y = dot(from_a, s.t);
+  return {dot(from_a, s.n), y, std::clamp(y / s.l, 0.0, 1.0)};
+}
+
+// The segment parameter in 3-D and the depth there.
+struct Along {
+  double u, depth;
+};
+inline Along along(const ScreenSegment& s, double v, bool perspective) {
+  if (!perspective) return {v, mix(s.depth_a, s.depth_b, v)};
+  const double depth = 1 / ((1 - v) / s.depth_a + v / s.depth_b);
+  return {v * depth / s.depth_b, depth};
+}
 
 }  // namespace forelock::reference

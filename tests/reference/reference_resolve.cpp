@@ -2,6 +2,7 @@
 #include "reference_vector.h"
 
 #include <algorithm>
+#include <numbers>
 #include <tuple>
 
 namespace forelock::reference {
@@ -11,20 +12,36 @@ bool nearer(const Fragment& a, const Fragment& b) {
   return std::tie(a.depth, a.slot, a.sequence) < std::tie(b.depth, b.slot, b.sequence);
 }
 
+constexpr double thickest_tau = 12;  // of one fragment in the deterministic tail
+
+// The colour and transmittance of what the core leaves.
 struct Tail {
-  std::array<double, 3> color{};
-  double transmittance = 1;
+  TailOrder order = TailOrder::list;
+  std::array<double, 3> color{};  // deterministic: the sum of tau times colour until finish()
+  double transmittance = 1, sum_tau = 0;
+
+  void add(double alpha, const std::array<double, 3>& c) {
+    transmittance *= 1 - alpha;
+    const double tau = std::min(-std::log1p(-alpha) / std::numbers::ln2, thickest_tau);
+    sum_tau += tau;
+    for (size_t i = 0; i < 3; ++i) {
+      color[i] = order == TailOrder::list ? alpha * c[i] + (1 - alpha) * color[i] : color[i] + tau * c[i];
+    }
+  }
+  void finish() {
+    if (order == TailOrder::list) return;
+    for (double& c : color) c = sum_tau > 0 ? (1 - transmittance) * c / sum_tau : 0;
+  }
 };
 
-}  // namespace
-
-Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMap> maps, const FragmentLists& lists,
-              const ResolveOptions& options) {
+Image resolveFaces(const Scene& scene, const Camera& camera, std::span<const std::span<const ShadowMap>> faces,
+                   const FragmentLists& lists, const ResolveOptions& options) {
   Image image;
   image.width = lists.width;
   image.height = lists.height;
   image.pixels.resize(size_t(lists.width) * size_t(lists.height));
-  const bool exact = options.method == Method::exact;
+  const Method method = options.method;
+  const bool sorts_all = method == Method::exact || method == Method::hard;
   const size_t k_sort = size_t(std::max(options.k_sort, 0));
 
   parallelFor(lists.height, options.threads, [&](int y) {
@@ -34,13 +51,18 @@ Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMa
       if (list.empty()) continue;
       Pixel& pixel = image.at(x, y);
       pixel.fragments = uint32_t(list.size());
-      auto shade = [&](const Fragment& f, bool full) { return shadeFragment(scene, camera, maps, x, y, f, full); };
+      auto shade = [&](const Fragment& f, bool full) { return shadeFragmentLit(scene, camera, faces, x, y, f, full); };
 
       Tail tail;
+      if (method != Method::forward) tail.order = options.tail;
       core.clear();
-      if (exact) {
+      if (sorts_all) {
         core.assign(list.begin(), list.end());
         std::sort(core.begin(), core.end(), nearer);
+        if (method == Method::hard) {
+          core.resize(1);
+          core[0].alpha = 1;
+        }
       } else {
         for (size_t i = list.size(); i-- > 0;) {  // the last stored is met first
           Fragment out = list[i];
@@ -51,14 +73,15 @@ Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMa
             core.pop_back();
           }
           std::array<double, 3> color{};
-          if (options.method != Method::core_only) color = shade(out, options.method == Method::forward);
-          for (size_t c = 0; c < 3; ++c) tail.color[c] = out.alpha * color[c] + (1 - out.alpha) * tail.color[c];
-          tail.transmittance *= 1 - out.alpha;
+          if (method != Method::core_only) color = shade(out, method == Method::forward);
+          tail.add(out.alpha, color);
         }
+        tail.finish();
       }
       double transmittance = 1;
       for (size_t i = 0; i < core.size(); ++i) {
-        const bool full = exact || options.method == Method::forward || int(i) < options.k;
+        const bool full =
+            sorts_all || method == Method::forward || (method != Method::all_low && int(i) < options.k);
         const std::array<double, 3> color = transmittance > 0 ? shade(core[i], full) : std::array<double, 3>{};
         for (size_t c = 0; c < 3; ++c) pixel.rgb[c] += transmittance * core[i].alpha * color[c];
         transmittance *= 1 - core[i].alpha;
@@ -68,6 +91,22 @@ Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMa
     }
   });
   return image;
+}
+
+}  // namespace
+
+Image resolve(const Scene& scene, const Camera& camera, std::span<const ShadowMap> maps, const FragmentLists& lists,
+              const ResolveOptions& options) {
+  std::vector<std::span<const ShadowMap>> faces;
+  for (const ShadowMap& map : maps) faces.push_back({&map, 1});
+  return resolveFaces(scene, camera, faces, lists, options);
+}
+
+Image resolveLit(const Scene& scene, const Camera& camera, std::span<const LightMaps> maps, const FragmentLists& lists,
+                 const ResolveOptions& options) {
+  std::vector<std::span<const ShadowMap>> faces;
+  for (const LightMaps& light : maps) faces.push_back(light.faces);
+  return resolveFaces(scene, camera, faces, lists, options);
 }
 
 std::vector<double> opacityOf(const Image& image) {

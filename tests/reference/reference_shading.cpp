@@ -35,11 +35,25 @@ std::array<double, 3> shadeLobes(const Material& material, const LobeInput& inpu
 
 std::array<double, 3> shadeFragment(const Scene& scene, const Camera& camera, std::span<const ShadowMap> maps, int x,
                                     int y, const Fragment& fragment, bool full) {
+  std::vector<std::span<const ShadowMap>> faces;
+  for (const ShadowMap& map : maps) faces.push_back({&map, 1});
+  return shadeFragmentLit(scene, camera, faces, x, y, fragment, full);
+}
+
+std::array<double, 3> shadeFragmentLit(const Scene& scene, const Camera& camera,
+                                       std::span<const std::span<const ShadowMap>> faces, int x, int y,
+                                       const Fragment& fragment, bool full) {
   const Material* material = nullptr;
   for (const Hair& hair : scene.hairs) {
     if (hair.slot == fragment.slot) material = &hair.material;
   }
   if (!material) return {};
+  Material coloured;
+  if (fragment.has_color) {
+    coloured = *material;
+    for (size_t c = 0; c < 3; ++c) coloured.color[c] = fragment.color[c];
+    material = &coloured;
+  }
   const double* m = camera.view_from_world;
   auto toWorld = [m](Vec3 v) {
     return Vec3{m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
@@ -50,14 +64,18 @@ std::array<double, 3> shadeFragment(const Scene& scene, const Camera& camera, st
   Vec3 to_eye = toWorld({0, 0, 1});
   if (isPerspective(camera)) to_eye = normalizeOrZero(toWorld({-m[12], -m[13], -m[14]}) - position);
 
-  std::array<double, 3> out{};
-  for (size_t c = 0; c < 3; ++c) out[c] = scene.ambient[c] * material->kd * material->color[c];
+  std::array<double, 3> out = ambientLight(scene, tangent);
+  for (size_t c = 0; c < 3; ++c) out[c] *= material->kd * material->color[c];
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
-    const Vec3 to_light = normalizeOrZero(light.direction_to_light);
-    const double reaching = i < maps.size() ? shadowLight(maps[i], *material, position, tangent, full) : 1;
-    const auto lobes = shadeLobes(*material, {tangent, to_light, to_eye}, full);
-    for (size_t c = 0; c < 3; ++c) out[c] += light.radiance[c] * reaching * lobes[c];
+    if (!lightReaches(scene.light_tiles, i, x, y)) continue;
+    const Arriving arriving = arrivingLight(light, position);
+    if (isZero(arriving.to_light)) continue;  // in the light itself
+    double reaching = i < faces.size() ? shadowLight(faces[i], *material, position, tangent, full) : 1;
+    if (light.host_shadow) reaching *= hostShadowLight(*light.host_shadow, position);
+    if (!light.visibility.empty()) reaching *= light.visibility[size_t(y) * size_t(camera.width) + size_t(x)];
+    const auto lobes = shadeLobes(*material, {tangent, arriving.to_light, to_eye}, full);
+    for (size_t c = 0; c < 3; ++c) out[c] += arriving.radiance[c] * reaching * lobes[c];
   }
   return out;
 }

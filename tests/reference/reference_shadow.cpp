@@ -1,5 +1,7 @@
-// The hair shadow map and its attenuation: section 4.
+// The frames of hair shadow maps and the attenuation they give: section 4.
 #include "reference_quads.h"
+
+#include <numbers>
 
 namespace forelock::reference {
 
@@ -35,13 +37,11 @@ Sphere boundingSphere(const Scene& scene) {
   return all;
 }
 
-ShadowMap shadowFrame(const Sphere& sphere, Vec3 direction_to_light, int size) {
-  ShadowMap map;
+namespace {
+
+// x and y of the map's axes from its z; empty depths.
+void finishFrame(ShadowMap& map, int size) {
   map.size = size;
-  map.rho = sphere.radius;
-  map.texel = 2 * sphere.radius / size;
-  map.center = sphere.center;
-  map.z = -1.0 * normalizeOrZero(direction_to_light);
   const double ax = std::fabs(map.z.x), ay = std::fabs(map.z.y), az = std::fabs(map.z.z);
   Vec3 e{1, 0, 0};
   if (ay < ax && ay <= az) e = {0, 1, 0};
@@ -49,59 +49,59 @@ ShadowMap shadowFrame(const Sphere& sphere, Vec3 direction_to_light, int size) {
   map.x = normalizeOrZero(e - dot(e, map.z) * map.z);
   map.y = cross(map.z, map.x);
   map.depth.assign(size_t(size) * size_t(size), std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+ShadowMap shadowFrame(const Sphere& sphere, Vec3 direction_to_light, int size) {
+  ShadowMap map;
+  map.rho = sphere.radius;
+  map.texel = 2 * sphere.radius / size;
+  map.center = sphere.center;
+  map.z = -1.0 * normalizeOrZero(direction_to_light);
+  finishFrame(map, size);
   return map;
 }
 
-ShadowMap renderShadowMap(const Scene& scene, const Light& light) {
-  return renderShadowMap(scene, light, boundingSphere(scene));
+ShadowMap perspectiveFrame(const Sphere& sphere, Vec3 origin, Vec3 axis, double half_angle, int size) {
+  ShadowMap map;
+  map.rho = sphere.radius;
+  map.center = sphere.center;
+  map.origin = origin;
+  map.z = normalizeOrZero(axis);
+  map.focal = (size / 2.0 - 3) / std::tan(half_angle);
+  map.near_depth = std::max(length(sphere.center - origin) - sphere.radius, 0.001 * sphere.radius);
+  finishFrame(map, size);
+  return map;
 }
 
-ShadowMap renderShadowMap(const Scene& scene, const Light& light, const Sphere& sphere) {
-  ShadowMap map = shadowFrame(sphere, light.direction_to_light, light.shadow_size);
-  if (!(map.rho > 0)) return map;
-  std::vector<PlaneSegment> planes;
-  std::vector<double> depths;
-  for (const Hair& hair : scene.hairs) {
-    const Strands& strands = hair.strands;
-    for (size_t strand = 0; strand < strands.count(); ++strand) {
-      const size_t begin = strands.first_vertex[strand], end = strands.first_vertex[strand + 1];
-      if (end < begin + 2) continue;
-      planes.assign(end - begin - 1, {});
-      depths.assign(end - begin, 0);
-      for (size_t v = begin; v < end; ++v) {
-        const Vec3 q = strands.positions[v] - map.center;
-        const Vec2 at{(dot(q, map.x) / map.rho + 1) / 2 * map.size, (dot(q, map.y) / map.rho + 1) / 2 * map.size};
-        const double h = std::max(strands.radii[v] * hair.material.width_scale / map.texel, 0.5);
-        depths[v - begin] = dot(q, map.z) + map.rho;
-        if (v + 1 < end) {
-          planes[v - begin].exists = true;
-          planes[v - begin].a = at;
-          planes[v - begin].h_a = h;
-        }
-        if (v > begin) {
-          planes[v - begin - 1].b = at;
-          planes[v - begin - 1].h_b = h;
-        }
-      }
-      for (PlaneSegment& plane : planes) setDirection(plane);
-      shapeStrand(planes, true);
-      for (size_t i = 0; i < planes.size(); ++i) {
-        if (!planes[i].exists) continue;
-        forEachCell(planes[i].corner, map.size, 0, map.size, [&](int column, int row) {
-          const double y = dot(Vec2{column + 0.5, row + 0.5} - planes[i].a, planes[i].t);
-          const double d = mix(depths[i], depths[i + 1], std::clamp(y / planes[i].l, 0.0, 1.0));
-          float& stored = map.depth[size_t(row) * size_t(map.size) + size_t(column)];
-          stored = std::min(stored, float(d));
-        });
-      }
-    }
+LightMaps lightFrames(const Light& light, const Sphere& sphere) {
+  LightMaps maps;
+  const int size = light.shadow_size;
+  if (!light.shadow || !(sphere.radius > 0)) return maps;
+  if (light.kind == LightKind::directional) {
+    maps.faces.push_back(shadowFrame(sphere, light.direction_to_light, size));
+    return maps;
   }
-  return map;
-}
-
-std::vector<ShadowMap> renderShadowMaps(const Scene& scene) {
-  std::vector<ShadowMap> maps;
-  for (const Light& light : scene.lights) maps.push_back(light.shadow ? renderShadowMap(scene, light) : ShadowMap{});
+  const Vec3 way = sphere.center - light.position;
+  const double r = length(way);
+  double half_angle = std::numeric_limits<double>::infinity();
+  Vec3 axis{};
+  if (r >= 1.25 * sphere.radius) {
+    half_angle = std::asin(sphere.radius / r);
+    axis = way;
+  }
+  if (light.kind == LightKind::spot && light.outer_angle <= std::numbers::pi / 3 && light.outer_angle < half_angle) {
+    half_angle = light.outer_angle;
+    axis = light.axis;
+  }
+  if (std::isfinite(half_angle)) {
+    maps.faces.push_back(perspectiveFrame(sphere, light.position, axis, half_angle, size));
+    return maps;
+  }
+  for (const Vec3& z : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
+    maps.faces.push_back(perspectiveFrame(sphere, light.position, z, std::numbers::pi / 4, size));
+  }
   return maps;
 }
 
@@ -124,14 +124,20 @@ double gaussianWeight(int i, int j) {
 
 double shadowLight(const ShadowMap& map, const Material& material, Vec3 position, Vec3 tangent, bool core) {
   if (map.size == 0 || !(map.rho > 0)) return 1;
-  const Vec3 q = position - map.center;
-  const double depth = dot(q, map.z) + map.rho;
-  const double column = std::floor((dot(q, map.x) / map.rho + 1) / 2 * map.size);
-  const double row = std::floor((dot(q, map.y) / map.rho + 1) / 2 * map.size);
+  const bool perspective = map.focal > 0;
+  const Vec3 q = position - (perspective ? map.origin : map.center);
+  const double vx = dot(q, map.x), vy = dot(q, map.y), vz = dot(q, map.z);
+  if (perspective && !(vz >= map.near_depth)) return 1;
+  const double depth = perspective ? length(q) : vz + map.rho;
+  const double texel = perspective ? vz / map.focal : map.texel;
+  const Vec3 from_light = perspective ? normalizeOrZero(q) : map.z;
+  const double half = map.size / 2.0;
+  const double column = std::floor(perspective ? half + map.focal * vx / vz : (vx / map.rho + 1) / 2 * map.size);
+  const double row = std::floor(perspective ? half + map.focal * vy / vz : (vy / map.rho + 1) / 2 * map.size);
   if (!(std::fabs(column) < 1e9) || !(std::fabs(row) < 1e9)) return 1;
-  const double cosine = -dot(tangent, map.z);
-  const double sine = length(cross(tangent, map.z));
-  const double bias = map.texel * std::fabs(cosine) / std::max(sine, 0.1);
+  const double cosine = -dot(tangent, from_light);
+  const double sine = length(cross(tangent, from_light));
+  const double bias = texel * std::fabs(cosine) / std::max(sine, 0.1);
   static const std::array<double, 25> weights = [] {
     std::array<double, 25> w{};
     for (int i = 0; i < 25; ++i) w[size_t(i)] = gaussianWeight(i % 5 - 2, i / 5 - 2);
@@ -151,6 +157,15 @@ double shadowLight(const ShadowMap& map, const Material& material, Vec3 position
     }
   }
   return light;
+}
+
+double shadowLight(std::span<const ShadowMap> faces, const Material& material, Vec3 position, Vec3 tangent, bool core) {
+  if (faces.empty()) return 1;
+  const ShadowMap* seen = &faces[0];
+  for (const ShadowMap& face : faces.subspan(1)) {
+    if (dot(position - face.origin, face.z) > dot(position - seen->origin, seen->z)) seen = &face;
+  }
+  return shadowLight(*seen, material, position, tangent, core);
 }
 
 }  // namespace forelock::reference

@@ -24,7 +24,7 @@ uint64_t splitMix(uint64_t& state) {
 
 // docs/methods.md section 7.
 Vec3 followOffset(const FlkFollowStrands& follow, uint32_t guide, uint32_t number, const Vec3& rest) {
-  uint64_t state = follow.seed + (uint64_t(guide) * 1024 + number) * 0x9E3779B97F4A7C15u;
+  uint64_t state = follow.seed + (uint64_t(guide) * 1024 + number) * 2 * 0x9E3779B97F4A7C15u;
   const double u1 = double(splitMix(state) >> 11) * 0x1p-53, u2 = double(splitMix(state) >> 11) * 0x1p-53;
   int axis = 0;
   for (int i = 1; i < 3; ++i)

@@ -51,14 +51,15 @@ ShadowFace sunFace(const Sphere& sphere, const Vec3& to_light, uint32_t size) {
   return face;
 }
 
-ShadowFace coneFace(const Sphere& sphere, const Vec3& position, const Vec3& axis, double half_angle, uint32_t size) {
+ShadowFace coneFace(const Sphere& sphere, const Vec3& position, const Vec3& axis, double half_angle, double widest_cosine,
+                    uint32_t size) {
   const double distance = length(sphere.center - position);
   ShadowFace face;
   face.map_from_world = fromWorld(axesAbout(axis), position, 1);
   face.focal = (size * 0.5 - kMargin) / std::tan(half_angle);
   face.texel = 1 / face.focal;
   face.range = distance + sphere.radius;
-  face.near = std::max(distance - sphere.radius, kNearShare * sphere.radius);
+  face.near = std::max((distance - sphere.radius) * widest_cosine, kNearShare * sphere.radius);
   face.size = size;
   return face;
 }
@@ -78,12 +79,13 @@ bool addFaces(const LightFacts& light, uint32_t index, const Sphere& sphere, Sha
   const double sphere_angle = sphere_fits ? std::asin(sphere.radius / distance) : 2;
   const bool cone_fits = light.kind == LightKind::spot && light.outer_angle <= kWidestCone;
   if (cone_fits && light.outer_angle < sphere_angle)
-    return add(coneFace(sphere, light.position, light.direction * -1.0, light.outer_angle, light.shadow_size), 0);
-  if (sphere_fits) return add(coneFace(sphere, light.position, away * (1 / distance), sphere_angle, light.shadow_size), 0);
+    return add(coneFace(sphere, light.position, light.direction * -1.0, light.outer_angle, std::cos(light.outer_angle),
+                        light.shadow_size), 0);
+  if (sphere_fits) return add(coneFace(sphere, light.position, away * (1 / distance), sphere_angle, 1, light.shadow_size), 0);
   for (uint32_t i = 0; i < 6; ++i) {
     Vec3 axis{};
     axis[i / 2] = i % 2 ? -1 : 1;
-    if (!add(coneFace(sphere, light.position, axis, 0.7853981633974483, light.shadow_size), i)) return false;
+    if (!add(coneFace(sphere, light.position, axis, 0.7853981633974483, 0.5773502691896258, light.shadow_size), i)) return false;
   }
   return true;
 }

@@ -165,7 +165,7 @@ TEST(GroomShape, CurlyTurnsTightly) {
   EXPECT_GE(recipe.vertices * recipe.curl.wavelength / recipe.length.mean, 6.0);
 }
 
-TEST(GroomShape, FurBallIsABallWithoutGapsOrHead) {
+TEST(GroomShape, FurBallIsARoundBallWithoutHead) {
   const Recipe recipe = stored("fur-ball");
   const Groom groom = makeGroom(recipe);
   const double radius = recipe.scalp.radii.x;

@@ -18,7 +18,8 @@ namespace {
 // Independent streams of random numbers: what a number is for, as the hash's second argument.
 enum Stream : uint64_t {
   kJitterU, kJitterV, kFeather, kLength, kClumpLength, kHem, kClearance, kFlyaway, kWave, kCurl = kWave + 8,
-  kFrizz = kCurl + 8, kFly = kFrizz + 4, kPull = kFly + 4, kThickness, kParting
+  kFrizz = kCurl + 8, kFly = kFrizz + 4, kPull = kFly + 4, kThickness, kParting,
+  kUndercoat, kCrimp = kUndercoat + 1
 };
 
 double interpolateHairline(const std::vector<HairlinePoint>& line, double azimuth_deg) {
@@ -111,7 +112,9 @@ class Grower {
  public:
   explicit Grower(const Recipe& recipe)
       : recipe_(recipe), body_(recipe), roots_(plantRoots(recipe, body_)) {
-    const double longest = recipe.length.mean * (1.0 + recipe.length.variation) * (1.0 + recipe.length.clump_variation);
+    const double longest = recipe.length.mean * (1.0 + recipe.length.variation) *
+                           (1.0 + recipe.length.clump_variation) * std::max(1.0, 1.0 - recipe.length.layers) *
+                           std::max(1.0, 1.0 - recipe.length.front);
     step_ = std::min(0.005, recipe.length.mean / 8.0);
     steps_ = static_cast<size_t>(longest / step_) + 2;
     gatherGuides();
@@ -259,6 +262,7 @@ void Grower::growStrand(uint32_t index, Groom& groom) const {
   const Root& root = roots_[index];
   double fly;
   GrownPath path = growRaw(index, steps_, &fly);
+  const bool under = hashUnit(seed, kUndercoat, index) < recipe_.undercoat.fraction;
 
   uint32_t fine = index;
   uint32_t coarse = index;
@@ -270,10 +274,12 @@ void Grower::growStrand(uint32_t index, Groom& groom) const {
       coarse = clumps_.parent[coarse];
     }
     const double loyal = 1.0 - 0.35 * hashUnit(seed, kPull, index);
-    gather(path, clumps_.paths[fine], level, loyal * (1.0 - fly * recipe_.flyaways.loose));
+    if (!under) {  // what guard hair gathers above it fills the gaps below
+      gather(path, clumps_.paths[fine], level, loyal * (1.0 - fly * recipe_.flyaways.loose));
+    }
   }
 
-  const double length = lengthOf(index, fine, path);
+  const double length = lengthOf(index, fine, path) * (under ? recipe_.undercoat.length : 1.0);
   const uint32_t vertices = recipe_.vertices;
   std::vector<glm::dvec3> points(vertices);
   for (uint32_t j = 0; j < vertices; ++j) {
@@ -300,6 +306,10 @@ void Grower::growStrand(uint32_t index, Groom& groom) const {
     for (int axis = 0; axis < 3; ++axis) {
       const uint64_t a = static_cast<uint64_t>(axis);
       point[axis] += frizz * noise1(seed, hashBits(kFrizz, index, a), s / recipe_.frizz.wavelength);
+      if (under) {
+        point[axis] += recipe_.undercoat.crimp * smoothStep(0.0, recipe_.undercoat.wavelength, s) *
+                       noise1(seed, hashBits(kCrimp, index, a), s / recipe_.undercoat.wavelength);
+      }
       if (astray > 0.0) {
         point[axis] += astray * noise1(seed, hashBits(kFly, index, a), 3.0 * t + 1.5 * hashUnit(seed, kFly, index));
       }

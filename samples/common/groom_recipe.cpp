@@ -42,8 +42,8 @@ void readLength(KeyReader reader, Recipe& recipe) {
   reader.number("mean", recipe.length.mean, 0.001, 3.0, "m");
   reader.number("variation", recipe.length.variation, 0.0, 0.9, "");
   reader.number("clump_variation", recipe.length.clump_variation, 0.0, 0.9, "");
-  reader.number("layers", recipe.length.layers, 0.0, 0.9, "");
-  reader.number("front", recipe.length.front, 0.0, 0.9, "");
+  reader.number("layers", recipe.length.layers, -2.0, 0.9, "");
+  reader.number("front", recipe.length.front, -2.0, 0.9, "");
   reader.number("hem", recipe.length.hem, -10.0, 10.0, "m");
   reader.number("hem_variation", recipe.length.hem_variation, 0.0, 1.0, "m");
   reader.finish();
@@ -52,8 +52,12 @@ void readLength(KeyReader reader, Recipe& recipe) {
 void readFlow(KeyReader reader, Recipe& recipe) {
   reader.number("lift", recipe.flow.lift, 0.0, 1.0, "");
   reader.number("bend", recipe.flow.bend, 0.002, 10.0, "m");
+  reader.number("gravity", recipe.flow.gravity, 0.0, 1.0, "");
   reader.number("comb", recipe.flow.comb, 0.001, 10.0, "m");
   reader.number("back", recipe.flow.back, -2.0, 2.0, "");
+  reader.number("whorl", recipe.flow.whorl, 0.0, 1.0, "");
+  reader.number("ruffle", recipe.flow.ruffle, 0.0, 4.0, "");
+  reader.number("ruffle_size", recipe.flow.ruffle_size, 0.001, 1.0, "m");
   reader.number("face_gap", recipe.flow.face_gap, 0.0, 0.2, "m");
   reader.number("gather", recipe.flow.gather, 0.0, 4.0, "");
   reader.number("clearance_low", recipe.flow.clearance_low, 0.0, 0.1, "m");
@@ -153,6 +157,13 @@ Recipe readRecipe(const nlohmann::json& json, const std::string& name) {
   flyaways.number("amplitude", recipe.flyaways.amplitude, 0.0, 0.2, "m");
   flyaways.number("loose", recipe.flyaways.loose, 0.0, 1.0, "");
   flyaways.finish();
+
+  KeyReader undercoat = top.object("undercoat");
+  undercoat.number("fraction", recipe.undercoat.fraction, 0.0, 1.0, "");
+  undercoat.number("length", recipe.undercoat.length, 0.05, 1.0, "");
+  undercoat.number("crimp", recipe.undercoat.crimp, 0.0, 0.1, "m");
+  undercoat.number("wavelength", recipe.undercoat.wavelength, 0.002, 1.0, "m");
+  undercoat.finish();
 
   KeyReader width = top.object("width");
   width.number("root", recipe.width.root, 1e-6, 0.1, "m");

@@ -66,8 +66,8 @@ struct Recipe {
     double mean = 0.3;        // (m)
     double variation = 0.1;   // share, from strand to strand
     double clump_variation = 0.1;
-    double layers = 0.0;      // share by which the uppermost roots' hair is shorter
-    double front = 0.0;       // share by which hair around the face is shorter
+    double layers = 0.0;      // share by which the uppermost roots' hair is shorter; negative: longer
+    double front = 0.0;       // share by which hair around the face is shorter; negative: longer
     double hem = -10.0;       // (m) height below which hair is cut
     double hem_variation = 0.0;
   } length;
@@ -80,8 +80,12 @@ struct Recipe {
   struct {
     double lift = 0.4;         // [0, 1]: 0 hair leaves the scalp flat, 1 upright
     double bend = 0.03;        // (m) over which gravity turns the hair
+    double gravity = 1.0;      // [0, 1]: 0 hair keeps the direction that it was combed in
     double comb = 0.05;        // (m) over which the combed direction is kept
     double back = 0.5;         // share of combing to the back over combing sideways
+    double whorl = 1.0;        // how strongly hair at the back is combed away from the whorl
+    double ruffle = 0.0;       // share of a random direction in the combing, alike for neighbours
+    double ruffle_size = 0.02; // (m) over which that direction changes
     double face_gap = 0.0;     // (m) half width of the part of the face that is kept free
     double gather = 0.0;    // how strongly hair is drawn off the shoulders to chest and back
     double clearance_low = 0.002;   // (m) over the skin, for the lowest roots
@@ -103,6 +107,13 @@ struct Recipe {
     double amplitude = 0.01; // (m) at the tip
     double loose = 0.8;      // share of the clumps' pull that they ignore
   } flyaways;
+
+  struct {
+    double fraction = 0.0;  // of the strands, the rest is guard hair
+    double length = 0.5;    // share of the length that guard hair would have there
+    double crimp = 0.002;   // (m) of each strand's own noise
+    double wavelength = 0.008;
+  } undercoat;
 
   struct {
     double root = 8e-5, tip = 5e-5;  // (m), diameters

@@ -22,13 +22,18 @@ glm::dvec3 combedDirection(const Recipe& recipe, const Root& root) {
   const glm::dvec3 whorl = recipe.scalp.centre + glm::dvec3(recipe.parting.offset, recipe.scalp.radii.y * 0.85,
                                                             -recipe.scalp.radii.z * 0.55);
   // The downward part is for the temples, where what points sideways has next to no direction along the skin.
-  const glm::dvec3 parted(root.side * recipe.parting.strength, -0.4, -recipe.flow.back);
+  const glm::dvec3 parted(root.side * recipe.parting.strength, -0.4 * recipe.flow.gravity, -recipe.flow.back);
   const glm::dvec3 straight = normalizeOr(root.position - whorl, glm::dvec3(0.0, -1.0, 0.0));
   const glm::dvec3 radial = straight + glm::cross(root.normal, straight) * 0.6;  // a whorl turns
   const double front = smoothStep(whorl.z - 0.02, whorl.z + 0.04, root.position.z);
   const glm::dvec3 strayed(noise3(recipe.seed, 1001, root.position * 150.0), 0.0,
                            noise3(recipe.seed, 1002, root.position * 150.0));
-  const glm::dvec3 wanted = parted * front + radial * (1.0 - front) + strayed * 0.35;
+  glm::dvec3 wanted = parted * front + radial * ((1.0 - front) * recipe.flow.whorl) + strayed * 0.35;
+  if (recipe.flow.ruffle > 0.0) {
+    const glm::dvec3 place = root.position / recipe.flow.ruffle_size;
+    wanted += glm::dvec3(noise3(recipe.seed, 1003, place), noise3(recipe.seed, 1004, place),
+                         noise3(recipe.seed, 1005, place)) * recipe.flow.ruffle;
+  }
   return normalizeOr(wanted - root.normal * glm::dot(wanted, root.normal), glm::dvec3(root.side, 0.0, 0.0));
 }
 
@@ -103,7 +108,7 @@ GrownPath growPath(const Recipe& recipe, const Body& body, const Root& root, dou
   for (size_t i = 1; i <= steps; ++i) {
     const double s = static_cast<double>(i) * step;
     const double faded = 1.0 + (s / recipe.flow.comb) * (s / recipe.flow.comb);
-    glm::dvec3 pull = gravity + combed * (2.0 / (faded * faded));
+    glm::dvec3 pull = gravity * recipe.flow.gravity + combed * (2.0 / (faded * faded));
     if (recipe.drape_on_bust) {
       pull += shoulderPull(recipe, root, point, distance);
     }

@@ -53,8 +53,9 @@ void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
   std::printf("  length      %.4g to %.4g, mean %.4g\n", info.min_length, info.max_length, info.mean_length);
   std::printf("  width       %.4g to %.4g", 2.0 * info.min_radius, 2.0 * info.max_radius);
   std::printf(info.has_radii ? "\n" : " (default: 80 um x max(1, 100,000 / strands); preview --width MM changes it)\n");
-  std::printf("  attributes  positions%s%s%s\n", info.has_radii ? ", widths" : "",
-              info.has_root_uvs ? ", root UV" : "", info.has_inverse_masses ? ", inverse masses" : "");
+  std::printf("  attributes  positions%s%s%s%s\n", info.has_radii ? ", widths" : "",
+              info.has_root_uvs ? ", root UV" : "", info.has_inverse_masses ? ", inverse masses" : "",
+              info.has_colors ? ", colours" : "");
   std::printf("  memory      %s\n", readableBytes(info.bytes_host).c_str());
   if (findings.empty()) {
     std::printf("  findings    none\n");
@@ -91,7 +92,8 @@ void printJson(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
                    {"source", info.has_radii ? "asset" : "default"}};
   json["attributes"] = {{"widths", info.has_radii != 0},
                         {"root_uvs", info.has_root_uvs != 0},
-                        {"inverse_masses", info.has_inverse_masses != 0}};
+                        {"inverse_masses", info.has_inverse_masses != 0},
+                        {"colors", info.has_colors != 0}};
   json["bytes_host"] = info.bytes_host;
   json["findings"] = nlohmann::ordered_json::array();
   for (const FlkFinding& finding : findings) {

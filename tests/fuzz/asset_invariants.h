@@ -23,6 +23,7 @@ inline const char* brokenPromise(FlkAsset asset) {
   if (!strands.radii) return "radii are never NULL";
   if ((strands.root_uvs != nullptr) != (info.has_root_uvs != 0)) return "has_root_uvs";
   if ((strands.inverse_masses != nullptr) != (info.has_inverse_masses != 0)) return "has_inverse_masses";
+  if ((strands.colors != nullptr) != (info.has_colors != 0)) return "has_colors";
   if (strands.first_vertex[0] != 0 || strands.first_vertex[strands.strand_count] != strands.vertex_count)
     return "first_vertex spans all vertices";
 
@@ -45,6 +46,8 @@ inline const char* brokenPromise(FlkAsset asset) {
       if (radius < info.min_radius || radius > info.max_radius) return "radii within the announced range";
       if (strands.inverse_masses && !(strands.inverse_masses[vertex] >= 0 && std::isfinite(strands.inverse_masses[vertex])))
         return "inverse masses finite and not negative";
+      for (int i = 0; i < 3 && strands.colors; ++i)
+        if (const float value = strands.colors[size_t{vertex} * 3 + i]; !(value >= 0 && value <= 1)) return "colours within 0..1";
     }
     if (!(longest > 0)) return "no strand of zero length";
     for (int i = 0; i < 2 && strands.root_uvs; ++i)
@@ -107,6 +110,9 @@ inline const char* brokenRoundTrip(FlkAsset asset) {
       broken = "a .tfx round trip keeps the root UVs";
     else if (format == FLK_FORMAT_HAIR && info.has_radii && std::memcmp(after.radii, before.radii, vertices * 4) != 0)
       broken = "a .hair round trip keeps the radii";
+    else if (format == FLK_FORMAT_HAIR &&
+             (before.colors ? !after.colors || std::memcmp(after.colors, before.colors, vertices * 12) != 0 : after.colors != nullptr))
+      broken = "a .hair round trip keeps the colours";
     else if (saved(again, format, result) != bytes)
       broken = "equal assets give equal bytes";
     flkAssetDestroy(again);

@@ -1,4 +1,5 @@
-// fuzz_seeds tfx|hair FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by hand.
+// fuzz_seeds tfx|hair FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by hand;
+// TressFX 3, which the SDK does not write, by hand altogether.
 #include "asset_invariants.h"
 
 #include <cstdio>
@@ -22,10 +23,34 @@ FlkAsset makeAsset(bool equal_counts) {
   float positions[24], values[8];
   for (int i = 0; i < 24; ++i) positions[i] = 0.125f * static_cast<float>((i * 7) % 24);
   for (int i = 0; i < 8; ++i) values[i] = 0.25f * static_cast<float>(i % 4);
-  const FlkStrands strands{FLK_TYPE_STRANDS, nullptr, 2, 8, equal_counts ? equal : unequal, positions, values, values, values};
+  float colors[24];
+  for (int i = 0; i < 24; ++i) colors[i] = 0.125f * static_cast<float>(i % 9);
+  const FlkStrands strands{FLK_TYPE_STRANDS, nullptr, 2,      8,      equal_counts ? equal : unequal,
+                           positions,        values,  values, values, colors};
   FlkAsset asset = nullptr;
   flkAssetCreate(&strands, nullptr, &asset);
   return asset;
+}
+
+std::vector<unsigned char> tfx3(bool all_arrays) {
+  constexpr size_t strands = 2, vertices = 4, header = 296;
+  std::vector<unsigned char> bytes(header + strands * vertices * 12);
+  bytes[2] = bytes[3] = 0x40;
+  setU32(bytes, 4, strands);
+  setU32(bytes, 8, vertices);
+  setU32(bytes, 16, 1);
+  setU32(bytes, 144, header);
+  for (size_t i = 0; i < strands * vertices; ++i) setU32(bytes, header + i * 12, 0x3f000000 + i * 0x100000);
+  constexpr struct {
+    size_t field, bytes;
+  } blocks[] = {{148, strands * 4}, {152, strands * 8}, {156, strands * vertices * 16}, {160, strands * 4},
+                {164, strands * vertices * 8}};
+  for (const auto& block : blocks) {
+    if (!all_arrays) break;
+    setU32(bytes, block.field, bytes.size());
+    bytes.resize(bytes.size() + block.bytes);
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -35,7 +60,7 @@ int main(int argc, char** argv) {
   const bool tfx = std::strcmp(argv[1], "tfx") == 0;
   const std::filesystem::path folder = argv[2];
   std::filesystem::create_directories(folder);
-  bool written = true;
+  bool written = !tfx || (put(folder / "version-3", tfx3(false)) && put(folder / "version-3-all-arrays", tfx3(true)));
   for (const bool equal : {true, false}) {
     FlkAsset asset = makeAsset(equal);
     FlkResult result = FLK_SUCCESS;
@@ -50,8 +75,8 @@ int main(int argc, char** argv) {
         bytes.resize(bytes.size() + (field == 24 ? 8 : field == 20 ? 64 : 128));
       }
     } else {
-      bytes[12] |= 0x38;
-      bytes.resize(bytes.size() + 8 * (4 + 12 + 8));
+      bytes[12] |= 0x28;  // the SDK wrote the colours
+      bytes.resize(bytes.size() + 8 * (4 + 8));
     }
     written = written && put(folder / (name + "-all-arrays"), bytes);
   }

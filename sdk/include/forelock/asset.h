@@ -4,8 +4,8 @@
  * number of vertices. An asset never changes after it is made: any number of threads may read it at once.
  *
  * What every asset holds, whatever the file said: positions finite and within 1e6 of the origin; radii finite and >= 0;
- * two or more vertices a strand; no strand of zero length. Strands that break this are dropped one by one, each kind
- * with a finding, and the rest is loaded unchanged.
+ * colours within 0..1; two or more vertices a strand; no strand of zero length. Strands that break this are dropped one
+ * by one, other values replaced, each kind with a finding, and the rest is loaded unchanged.
  */
 #ifndef FORELOCK_ASSET_H
 #define FORELOCK_ASSET_H
@@ -59,8 +59,9 @@ typedef struct FlkFinding {
 /* Formats. */
 enum {
   FLK_FORMAT_UNKNOWN = 0,
-  FLK_FORMAT_TFX = 1,   /* TressFX 4, binary: equal vertex counts, root UV, inverse mass; no widths */
-  FLK_FORMAT_HAIR = 2   /* Cem Yuksel's .hair: thickness (read and written as the diameter); no UV, no mass */
+  FLK_FORMAT_TFX = 1,   /* TressFX, binary: versions 3 and 4 are read, 4 is written. Equal vertex counts, root UV,
+                           inverse mass; no widths, no colours */
+  FLK_FORMAT_HAIR = 2   /* Cem Yuksel's .hair: thickness (read and written as the diameter), colour; no UV, no mass */
 };
 
 typedef struct FlkAssetInfo {
@@ -72,6 +73,7 @@ typedef struct FlkAssetInfo {
   uint32_t has_radii;                /* 1: from the source; 0: default width */
   uint32_t has_root_uvs;
   uint32_t has_inverse_masses;
+  uint32_t has_colors;
   uint32_t finding_count;
   uint32_t strands_in_source;        /* before degenerate strands were dropped */
   float min_bounds[3], max_bounds[3];/* of the vertices (unit of the positions) */

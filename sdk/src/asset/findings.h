@@ -26,6 +26,8 @@ enum class FindingKind : uint32_t {
   radius_all_zero,
   root_uv_not_finite,
   inverse_mass_invalid,
+  color_not_finite,
+  color_outside_unit,
   hair_points_unused,
   hair_flags_reserved,
   tfx_offset_unaligned,
@@ -35,10 +37,11 @@ enum class FindingKind : uint32_t {
   strand_micro,
   root_uv_outside_unit,
   tfx_reserved_set,
+  tfx_follow_strands_ignored,
   tfx_vertex_uv_ignored,
   tfx_vertex_color_ignored,
   hair_transparency_ignored,
-  hair_color_ignored,
+  hair_default_color_ignored,
   width_defaulted,
   kinds
 };

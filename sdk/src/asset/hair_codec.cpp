@@ -37,6 +37,8 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
   const uint32_t flags = header.u32();
   const uint64_t default_segments = header.u32();
   const float default_thickness = header.f32();
+  header.f32();  // transparency
+  const float default_color[3] = {header.f32(), header.f32(), header.f32()};
 
   if ((flags & 0x00ffffffu) == 0 && (flags >> 24 & 2u) != 0)
     return report.fail(FLK_ERROR_MALFORMED, "HAIR_BYTE_SWAPPED",
@@ -102,7 +104,10 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
   if (flags >> arrays_known) findings.note(FindingKind::hair_flags_reserved, no_strand, 12);
   if (table[transparency].present)
     findings.note(FindingKind::hair_transparency_ignored, no_strand, table[transparency].offset);
-  if (table[color].present) findings.note(FindingKind::hair_color_ignored, no_strand, table[color].offset);
+  // One colour for everything is the material's to say, so it does not become an array. Black, greys and white are what
+  // exporters write unasked.
+  if (!table[color].present && !(default_color[0] == default_color[1] && default_color[1] == default_color[2]))
+    findings.note(FindingKind::hair_default_color_ignored, no_strand, 28);
   if (end < bytes.size()) findings.note(FindingKind::trailing_bytes, no_strand, end, bytes.size() - end);
 
   // A strand has at least one point, so the proven points bound the strands too.
@@ -131,6 +136,11 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
     // Zero is how exporters say "not set"; anything else here was meant as a width and is none.
     findings.note(FindingKind::radius_invalid, no_strand, 20);
   }
+  if (table[color].present) {
+    arrays.colors.resize(used_points * 3);
+    Cursor(bytes, table[color].offset).floats(arrays.colors);
+    places.colors = {table[color].offset, 12, false};
+  }
   if (table[uv].present) {
     arrays.root_uvs.resize(strands * 2);
     for (uint64_t strand = 0; strand < strands; ++strand) {
@@ -150,7 +160,8 @@ FlkResult measure(const FlkStrands& strands, const FlkAssetInfo& info, const Rep
                        info.max_vertices_per_strand);
   const bool equal = info.min_vertices_per_strand == info.max_vertices_per_strand;
   bytes = header_size + (equal ? 0 : uint64_t{strands.strand_count} * 2) + uint64_t{strands.vertex_count} * 12 +
-          (info.has_radii ? uint64_t{strands.vertex_count} * 4 : 0);
+          (info.has_radii ? uint64_t{strands.vertex_count} * 4 : 0) +
+          (info.has_colors ? uint64_t{strands.vertex_count} * 12 : 0);
   return FLK_SUCCESS;
 }
 
@@ -159,7 +170,8 @@ void write(const FlkStrands& strands, const FlkAssetInfo& info, const Report& re
   sink.text("HAIR", 4);
   sink.u32(strands.strand_count);
   sink.u32(strands.vertex_count);
-  sink.u32((equal ? 0u : 1u << segments) | 1u << points | (info.has_radii ? 1u << thickness : 0u));
+  sink.u32((equal ? 0u : 1u << segments) | 1u << points | (info.has_radii ? 1u << thickness : 0u) |
+           (info.has_colors ? 1u << color : 0u));
   sink.u32(equal ? info.max_vertices_per_strand - 1 : 0);
   sink.f32(0);  // thickness: 0 is "not set", so that a default width stays a default
   sink.f32(0);  // transparency
@@ -172,6 +184,8 @@ void write(const FlkStrands& strands, const FlkAssetInfo& info, const Report& re
   for (std::size_t i = 0; i < std::size_t{strands.vertex_count} * 3; ++i) sink.f32(strands.positions[i]);
   if (info.has_radii)
     for (uint32_t vertex = 0; vertex < strands.vertex_count; ++vertex) sink.f32(2.0f * strands.radii[vertex]);
+  if (info.has_colors)
+    for (std::size_t i = 0; i < std::size_t{strands.vertex_count} * 3; ++i) sink.f32(strands.colors[i]);
 
   if (strands.root_uvs)
     report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_ROOT_UVS",

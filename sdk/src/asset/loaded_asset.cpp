@@ -26,7 +26,8 @@ FlkResult finish(FlkAsset_T& asset, const Places& places, uint32_t format) {
   const auto bytes = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   const StrandArrays& arrays = asset.arrays;
   asset.info.bytes_host = sizeof(FlkAsset_T) + asset.name.capacity() + bytes(arrays.first_vertex) + bytes(arrays.positions) +
-                          bytes(arrays.radii) + bytes(arrays.root_uvs) + bytes(arrays.inverse_masses) + asset.findings.bytes();
+                          bytes(arrays.radii) + bytes(arrays.root_uvs) + bytes(arrays.inverse_masses) + bytes(arrays.colors) +
+                          asset.findings.bytes();
   asset.findings.tell(report);
   return FLK_SUCCESS;
 }
@@ -65,6 +66,7 @@ FlkResult makeAsset(const FlkStrands& strands, const AssetSettings& settings, As
   if (strands.radii) arrays.radii.assign(strands.radii, strands.radii + vertices);
   if (strands.root_uvs) arrays.root_uvs.assign(strands.root_uvs, strands.root_uvs + strand_count * 2);
   if (strands.inverse_masses) arrays.inverse_masses.assign(strands.inverse_masses, strands.inverse_masses + vertices);
+  if (strands.colors) arrays.colors.assign(strands.colors, strands.colors + vertices * 3);
   const FlkResult result = finish(*made, Places{}, FLK_FORMAT_UNKNOWN);
   if (result == FLK_SUCCESS) asset = std::move(made);
   return result;
@@ -95,5 +97,6 @@ FlkStrands FlkAsset_T::view() const noexcept {
   strands.radii = arrays.radii.data();
   strands.root_uvs = arrays.root_uvs.empty() ? nullptr : arrays.root_uvs.data();
   strands.inverse_masses = arrays.inverse_masses.empty() ? nullptr : arrays.inverse_masses.data();
+  strands.colors = arrays.colors.empty() ? nullptr : arrays.colors.data();
   return strands;
 }

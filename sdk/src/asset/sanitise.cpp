@@ -58,7 +58,7 @@ void noteMicroStrands(const StrandArrays& arrays, const std::pmr::vector<float>&
       findings.note(FindingKind::strand_micro, strand, places.positions.byte(strand, arrays.first_vertex[strand]));
 }
 
-// Replaces what no radius, UV or mass may be. Only in strands that stay: findings about dropped ones would mislead.
+// Replaces what no radius, UV, mass or colour may be. Only in strands that stay: findings about dropped ones would mislead.
 void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, float default_radius,
                   const Places& places, Findings& findings) {
   for (uint32_t strand = 0; strand < lengths.size(); ++strand) {
@@ -77,6 +77,19 @@ void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, 
         if (mass >= 0 && std::isfinite(mass)) continue;
         mass = 0;
         findings.note(FindingKind::inverse_mass_invalid, strand, places.inverse_masses.byte(strand, vertex));
+      }
+    if (!arrays.colors.empty())
+      for (uint32_t vertex = begin; vertex < end; ++vertex) {
+        float* color = arrays.colors.data() + std::size_t{vertex} * 3;
+        const uint64_t byte = places.colors.byte(strand, vertex);
+        if (!std::isfinite(color[0]) || !std::isfinite(color[1]) || !std::isfinite(color[2])) {
+          // All of it: with one component replaced it would be a colour of another hue that nobody chose.
+          std::fill_n(color, 3, 1.0f);
+          findings.note(FindingKind::color_not_finite, strand, byte);
+        } else if (std::any_of(color, color + 3, [](float value) { return value < 0 || value > 1; })) {
+          for (int i = 0; i < 3; ++i) color[i] = std::clamp(color[i], 0.0f, 1.0f);
+          findings.note(FindingKind::color_outside_unit, strand, byte);
+        }
       }
     if (!arrays.root_uvs.empty()) {
       float* uv = arrays.root_uvs.data() + std::size_t{strand} * 2;
@@ -106,6 +119,7 @@ void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths)
     move(arrays.positions, std::size_t{begin} * 3, std::size_t{vertices} * 3, std::size_t{count} * 3);
     move(arrays.radii, begin, vertices, count);
     move(arrays.inverse_masses, begin, vertices, count);
+    move(arrays.colors, std::size_t{begin} * 3, std::size_t{vertices} * 3, std::size_t{count} * 3);
     move(arrays.root_uvs, std::size_t{strand} * 2, std::size_t{strands} * 2, 2);
     // Never ahead of what is still to be read: `strands` is at most `strand`, whose own entry has just been used.
     arrays.first_vertex[strands++] = vertices;
@@ -116,6 +130,7 @@ void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths)
   arrays.positions.resize(std::size_t{vertices} * 3);
   if (!arrays.radii.empty()) arrays.radii.resize(vertices);
   if (!arrays.inverse_masses.empty()) arrays.inverse_masses.resize(vertices);
+  if (!arrays.colors.empty()) arrays.colors.resize(std::size_t{vertices} * 3);
   if (!arrays.root_uvs.empty()) arrays.root_uvs.resize(std::size_t{strands} * 2);
 }
 
@@ -212,6 +227,7 @@ FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_
   info.has_radii = !arrays.radii.empty();
   info.has_root_uvs = !arrays.root_uvs.empty();
   info.has_inverse_masses = !arrays.inverse_masses.empty();
+  info.has_colors = !arrays.colors.empty();
   if (!info.has_radii) {
     arrays.radii.assign(arrays.vertexCount(), default_radius);
     findings.note(FindingKind::width_defaulted, no_strand, no_byte);

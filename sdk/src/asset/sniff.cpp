@@ -23,12 +23,10 @@ constexpr FlkResult malformed = FLK_ERROR_MALFORMED;
 
 // Longer starts before the shorter ones that they begin with.
 constexpr Signature binary_signatures[] = {
-    {"\x00\x00\x40\x40"sv, unknown, "TFX_VERSION_3",
-     "a TressFX 3 binary (version 3.0 at byte 0); only version 4 is read: export again with a TressFX 4 exporter"},
     {"\x40\x80\x00\x00"sv, malformed, "TFX_BYTE_SWAPPED",
      "a TressFX 4 file in big-endian byte order (version at byte 0 is 4.0 backwards): write it in little-endian order"},
-    {"\x40\x40\x00\x00"sv, unknown, "TFX_VERSION_3",
-     "a TressFX 3 binary in big-endian byte order (byte 0); only version 4, little-endian, is read: export it again"},
+    {"\x40\x40\x00\x00"sv, malformed, "TFX_BYTE_SWAPPED",
+     "a TressFX 3 file in big-endian byte order (version at byte 0 is 3.0 backwards): write it in little-endian order"},
     {"RIAH"sv, malformed, "HAIR_BYTE_SWAPPED",
      "a .hair file in swapped byte order (the magic at byte 0 reads RIAH): write it in little-endian order"},
     {"glTF"sv, unknown, "GLTF_BINARY",
@@ -53,7 +51,7 @@ constexpr Signature text_signatures[] = {
     {"version https://git-lfs"sv, unknown, "GIT_LFS_POINTER",
      "a Git LFS pointer, not the file itself: run 'git lfs pull' where it was cloned, or download the file"},
     {"version "sv, unknown, "TFX_TEXT",
-     "a TressFX 1 or 2 text file; only the binary TressFX 4 form is read: export again with a TressFX 4 exporter"},
+     "a TressFX 1 or 2 text file; only the binary forms of TressFX 3 and 4 are read: export again with a TressFX 4 exporter"},
     {"<!doctype"sv, unknown, "HTML_PAGE", "a web page, not the file itself: download it again, through its raw link"},
     {"<html"sv, unknown, "HTML_PAGE", "a web page, not the file itself: download it again, through its raw link"},
     {"<?xml"sv, unknown, "XML_FILE", "an XML document, not a strand file: check what was downloaded"},
@@ -100,7 +98,7 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
   if (head.empty()) return report.fail(unknown, "FILE_EMPTY", "it is empty (0 bytes): write or download it again");
 
   const std::string_view all(reinterpret_cast<const char*>(head.data()), std::min(head.size(), sniffed_bytes));
-  if (all.starts_with("\x00\x00\x80\x40"sv)) return format = FLK_FORMAT_TFX, FLK_SUCCESS;
+  if (all.starts_with("\x00\x00\x80\x40"sv) || all.starts_with("\x00\x00\x40\x40"sv)) return format = FLK_FORMAT_TFX, FLK_SUCCESS;
   if (all.starts_with("HAIR")) return format = FLK_FORMAT_HAIR, FLK_SUCCESS;
   for (const Signature& signature : binary_signatures)
     if (all.starts_with(signature.start)) return report.fail(signature.result, signature.id, "it is %s", signature.text);
@@ -127,10 +125,10 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
   if (header.holds(4, 4)) {
     const float version = header.f32();
     header.u32(), header.u32();
-    constexpr uint32_t usual_position_offset = 160;
-    if (header.u32() == usual_position_offset)
+    // Where version 4 and version 3 keep the offset of their positions, which start right behind the header.
+    if (header.u32() == 160 || Cursor(head, 144).u32() == 296)
       return report.fail(unknown, "TFX_VERSION_UNKNOWN",
-                         "it looks like a .tfx file, but its version (byte 0) is %g where 4 is read: the file is damaged or "
+                         "it looks like a .tfx file, but its version (byte 0) is %g where 3 and 4 are read: the file is damaged or "
                          "newer, export it again as TressFX 4",
                          double{version});
   }
@@ -145,8 +143,8 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
     hex[i * 3 + 3] = '\0';
   }
   return report.fail(unknown, "FORMAT_UNKNOWN",
-                     "the bytes at its start (%sat byte 0) belong to no strand format that is read: give a TressFX 4 .tfx "
-                     "(00 00 80 40) or a .hair file (48 41 49 52)",
+                     "the bytes at its start (%sat byte 0) belong to no strand format that is read: give a .tfx of TressFX 3 "
+                     "or 4 (00 00 40 40, 00 00 80 40) or a .hair file (48 41 49 52)",
                      hex);
 }
 

@@ -17,14 +17,15 @@ struct Limits {
   uint32_t strands = limit_strands;
   uint32_t vertices = limit_vertices;
 
-  // No file within these limits is longer: both formats hold at most 40 bytes a vertex and 12 a strand. The rest is room
+  // No file within these limits is longer: no format holds more than 40 bytes a vertex and 16 a strand. The rest is room
   // for headers and for bytes at the end that belong to nothing.
-  uint64_t largestFile() const noexcept { return uint64_t{strands} * 12 + uint64_t{vertices} * 40 + (1u << 20); }
+  uint64_t largestFile() const noexcept { return uint64_t{strands} * 16 + uint64_t{vertices} * 40 + (1u << 20); }
 };
 
 struct StrandArrays {
   explicit StrandArrays(std::pmr::memory_resource* memory)
-      : first_vertex(memory), positions(memory), radii(memory), root_uvs(memory), inverse_masses(memory) {}
+      : first_vertex(memory), positions(memory), radii(memory), root_uvs(memory), inverse_masses(memory),
+        colors(memory) {}
 
   uint32_t strandCount() const noexcept { return static_cast<uint32_t>(first_vertex.size() - 1); }
   uint32_t vertexCount() const noexcept { return first_vertex.back(); }
@@ -34,6 +35,7 @@ struct StrandArrays {
   std::pmr::vector<float> radii;             // 1 a vertex; empty: none
   std::pmr::vector<float> root_uvs;          // 2 a strand; empty: none
   std::pmr::vector<float> inverse_masses;    // 1 a vertex; empty: none
+  std::pmr::vector<float> colors;            // 3 a vertex; empty: none
 };
 
 // Where in the file the values of an array lie, so that a finding can say at which byte to look.
@@ -48,7 +50,7 @@ struct Place {
 };
 
 struct Places {
-  Place positions, radii, root_uvs, inverse_masses;
+  Place positions, radii, root_uvs, inverse_masses, colors;
 };
 
 }  // namespace forelock

@@ -1,7 +1,11 @@
-// TressFX 4 binary (.tfx), as laid out by AMD's TressFXFileFormat.h and found in the files that its exporters write:
-//   0 f32 version 4.0 | 4 u32 strands | 8 u32 vertices a strand | 12 u32 x 5 offsets from the start of the file:
-//   positions (f32 x 4 a vertex: x y z inverse mass), UV (f32 x 2 a strand), UV (f32 x 2 a vertex), thickness (f32 a
-//   strand), colour (f32 x 4 a vertex); 0 is "none" | 32 u32 x 32 reserved | 160 data
+// TressFX 3 and 4 binary (.tfx), as laid out by AMD's TressFXFileFormat.h and found in the files that its exporters write.
+// Both begin with 0 f32 version | 4 u32 strands | 8 u32 vertices a strand; then
+//   version 4: 12 u32 x 5 offsets | 32 u32 x 32 reserved | 160 data
+//   version 3: 12 u32 follow strands a guide | 16 u32 both ends fixed | 20 u32 x 31 reserved | 144 u32 x 6 offsets |
+//   168 u32 x 32 reserved | 296 data
+// Offsets count from the start of the file, 0 is "none". Blocks: positions (f32 a vertex: x y z, in version 4 also the
+// inverse mass), UV (f32 x 2 a strand), UV (f32 x 2 a vertex), thickness (f32 a strand), colour (f32 x 4 a vertex), in
+// version 3 the guide of a strand (u32).
 #include "asset/codec.h"
 
 #include <algorithm>
@@ -11,11 +15,9 @@
 namespace forelock {
 namespace {
 
-constexpr uint64_t header_size = 160;
-
 struct Block {
   const char* name;
-  uint64_t field;   // byte of the offset field
+  uint64_t field;   // byte of the offset field; 0: this version has none
   uint64_t record;  // bytes
   bool per_strand;
   uint64_t offset = 0, count = 0;
@@ -23,39 +25,54 @@ struct Block {
   uint64_t end() const noexcept { return saturatingSum(offset, saturatingProduct(count, record)); }
 };
 
-enum { positions, strand_uv, vertex_uv, thickness, color, blocks };
+enum { positions, strand_uv, vertex_uv, thickness, color, guides, blocks };
 
-FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Report& report, StrandArrays& arrays,
-               Places& places, Findings& findings) {
-  if (bytes.size() < header_size)
-    return report.fail(FLK_ERROR_MALFORMED, "TFX_HEADER_TRUNCATED",
-                       "the header of a .tfx file is 160 bytes, but the file ends at byte %zu: it is truncated, fetch it again",
-                       bytes.size());
-  Cursor header(bytes, 4);
-  const uint64_t strands = header.u32(), vertices_per_strand = header.u32();
-  const uint64_t vertices = strands * vertices_per_strand;  // both are below 2^32
-  if (vertices == 0)
-    return report.fail(FLK_ERROR_EMPTY_ASSET, "TFX_NO_STRANDS",
-                       "the header counts %" PRIu64 " strands (byte 4) of %" PRIu64
-                       " vertices (byte 8): there is nothing to load, export it again",
-                       strands, vertices_per_strand);
+struct Bytes {
+  uint64_t begin, end;
+};
 
-  std::array<Block, blocks> table{{{"positions", 12, 16, false},
-                                   {"strand UVs", 16, 8, true},
-                                   {"vertex UVs", 20, 8, false},
-                                   {"thicknesses", 24, 4, true},
-                                   {"colours", 28, 16, false}}};
-  uint64_t end_of_data = header_size;
+struct Layout {
+  uint32_t version;
+  uint64_t header_size;
+  std::array<Block, blocks> table;
+  std::array<Bytes, 2> reserved;
+};
+
+constexpr Layout version_3{3,
+                           296,
+                           {{{"positions", 144, 12, false},
+                             {"strand UVs", 152, 8, true},
+                             {"vertex UVs", 164, 8, false},
+                             {"thicknesses", 148, 4, true},
+                             {"colours", 156, 16, false},
+                             {"guide numbers", 160, 4, true}}},
+                           {{{20, 144}, {168, 296}}}};
+constexpr Layout version_4{4,
+                           160,
+                           {{{"positions", 12, 16, false},
+                             {"strand UVs", 16, 8, true},
+                             {"vertex UVs", 20, 8, false},
+                             {"thicknesses", 24, 4, true},
+                             {"colours", 28, 16, false},
+                             {"guide numbers", 0, 4, true}}},
+                           {{{32, 160}, {160, 160}}}};
+constexpr uint64_t written_header_size = version_4.header_size;
+
+// Where the offset fields of a version say that its blocks are, each proven to lie in the file and apart from the others.
+FlkResult placeBlocks(std::span<const std::byte> bytes, uint64_t header_size, uint64_t strands, uint64_t vertices_per_strand,
+                      const Report& report, std::array<Block, blocks>& table, Findings& findings) {
+  const uint64_t vertices = strands * vertices_per_strand;
   for (Block& block : table) {
-    block.offset = header.u32();
+    if (block.field == 0) continue;
+    block.offset = Cursor(bytes, block.field).u32();
     const bool required = &block == &table[positions];
     if (block.offset == 0 && !required) continue;
     block.count = block.per_strand ? strands : vertices;
     if (block.offset < header_size)
       return report.fail(FLK_ERROR_MALFORMED, "TFX_OFFSET_IN_HEADER",
-                         "%s (offset field at byte %" PRIu64 ") start at byte %" PRIu64
-                         ", inside the 160-byte header: the header is damaged, fetch or export the file again",
-                         block.name, block.field, block.offset);
+                         "%s (offset field at byte %" PRIu64 ") start at byte %" PRIu64 ", inside the %" PRIu64
+                         "-byte header: the header is damaged, fetch or export the file again",
+                         block.name, block.field, block.offset, header_size);
     if (!Cursor(bytes, block.offset).holds(block.count, block.record) || block.offset > bytes.size())
       return report.fail(FLK_ERROR_MALFORMED, "TFX_BLOCK_PAST_END",
                          "%s (offset field at byte %" PRIu64 ") need %" PRIu64 " bytes from byte %" PRIu64 " for %" PRIu64
@@ -64,7 +81,6 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
                          block.name, block.field, saturatingProduct(block.count, block.record), block.offset, strands,
                          vertices_per_strand, bytes.size());
     if (block.offset % 4 != 0) findings.note(FindingKind::tfx_offset_unaligned, no_strand, block.field);
-    end_of_data = std::max(end_of_data, block.end());
   }
   for (const Block& a : table)
     for (const Block& b : table)
@@ -74,22 +90,53 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
                            " and run into the %s at byte %" PRIu64 " (offset field at byte %" PRIu64
                            "): the header counts strands that were not written, export it again without leaving any out",
                            a.name, a.field, a.offset, a.end(), b.name, b.offset, b.field);
+  return FLK_SUCCESS;
+}
+
+void noteWhatIsNotUsed(std::span<const std::byte> bytes, const Layout& layout, const std::array<Block, blocks>& table,
+                       Findings& findings) {
+  uint64_t reserved_set = 0, first_reserved = no_byte;
+  for (const Bytes& reserved : layout.reserved) {
+    Cursor words(bytes, reserved.begin);
+    for (uint64_t at = reserved.begin; at < reserved.end; at += 4)
+      if (words.u32() != 0 && reserved_set++ == 0) first_reserved = at;
+  }
+  if (reserved_set) findings.note(FindingKind::tfx_reserved_set, no_strand, first_reserved, reserved_set);
+  if (table[vertex_uv].count) findings.note(FindingKind::tfx_vertex_uv_ignored, no_strand, table[vertex_uv].offset);
+  if (table[color].count) findings.note(FindingKind::tfx_vertex_color_ignored, no_strand, table[color].offset);
+
+  uint64_t end_of_data = layout.header_size;
+  for (const Block& block : table)
+    if (block.count) end_of_data = std::max(end_of_data, block.end());
+  if (end_of_data < bytes.size())
+    findings.note(FindingKind::trailing_bytes, no_strand, end_of_data, bytes.size() - end_of_data);
+}
+
+FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Report& report, StrandArrays& arrays,
+               Places& places, Findings& findings) {
+  Cursor header(bytes);
+  const Layout& layout = header.f32() == 3.0f ? version_3 : version_4;
+  if (bytes.size() < layout.header_size)
+    return report.fail(FLK_ERROR_MALFORMED, "TFX_HEADER_TRUNCATED",
+                       "the header of a TressFX %" PRIu32 " file is %" PRIu64 " bytes, but the file ends at byte %zu: it is "
+                       "truncated, fetch it again",
+                       layout.version, layout.header_size, bytes.size());
+  const uint64_t strands = header.u32(), vertices_per_strand = header.u32();
+  const uint64_t vertices = strands * vertices_per_strand;  // both are below 2^32
+  if (vertices == 0)
+    return report.fail(FLK_ERROR_EMPTY_ASSET, "TFX_NO_STRANDS",
+                       "the header counts %" PRIu64 " strands (byte 4) of %" PRIu64
+                       " vertices (byte 8): there is nothing to load, export it again",
+                       strands, vertices_per_strand);
+  std::array<Block, blocks> table = layout.table;
+  const FlkResult placed = placeBlocks(bytes, layout.header_size, strands, vertices_per_strand, report, table, findings);
+  if (placed != FLK_SUCCESS) return placed;
   if (strands > limits.strands || vertices > limits.vertices)
     return report.fail(FLK_ERROR_LIMIT, "TFX_TOO_LARGE",
                        "it holds %" PRIu64 " strands (byte 4) and %" PRIu64 " vertices (byte 4 times byte 8), beyond the "
                        "limit of %" PRIu32 " and %" PRIu32 ": split it or raise the limit",
                        strands, vertices, limits.strands, limits.vertices);
-
-  uint64_t reserved_set = 0, first_reserved = no_byte;
-  while (header.at() < header_size) {
-    const uint64_t at = header.at();
-    if (header.u32() != 0 && reserved_set++ == 0) first_reserved = at;
-  }
-  if (reserved_set) findings.note(FindingKind::tfx_reserved_set, no_strand, first_reserved, reserved_set);
-  if (table[vertex_uv].count) findings.note(FindingKind::tfx_vertex_uv_ignored, no_strand, table[vertex_uv].offset);
-  if (table[color].count) findings.note(FindingKind::tfx_vertex_color_ignored, no_strand, table[color].offset);
-  if (end_of_data < bytes.size())
-    findings.note(FindingKind::trailing_bytes, no_strand, end_of_data, bytes.size() - end_of_data);
+  noteWhatIsNotUsed(bytes, layout, table, findings);
 
   arrays.first_vertex.resize(strands + 1);
   for (uint64_t strand = 0; strand <= strands; ++strand)
@@ -98,15 +145,25 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
   arrays.positions.resize(vertices * 3);
   arrays.inverse_masses.resize(vertices);
   Cursor data(bytes, table[positions].offset);
-  for (uint64_t vertex = 0; vertex < vertices; ++vertex) {
-    float* position = arrays.positions.data() + vertex * 3;
-    position[0] = data.f32();
-    position[1] = data.f32();
-    position[2] = data.f32();
-    arrays.inverse_masses[vertex] = data.f32();
+  places.positions = {table[positions].offset, static_cast<uint32_t>(table[positions].record), false};
+  if (layout.version == 3) {
+    data.floats(arrays.positions);
+    const uint32_t follow_strands = header.u32();
+    if (follow_strands) findings.note(FindingKind::tfx_follow_strands_ignored, no_strand, 12, follow_strands);
+    // The file has no masses: which vertices TressFX 3 holds fast follows from the header alone.
+    const bool both_ends = header.u32() != 0;
+    for (uint64_t vertex = 0; vertex < vertices; ++vertex) {
+      const uint64_t from_root = vertex % vertices_per_strand;
+      const bool pinned = from_root < 2 || (both_ends && from_root + 2 >= vertices_per_strand);
+      arrays.inverse_masses[vertex] = pinned ? 0.0f : 1.0f;
+    }
+  } else {
+    for (uint64_t vertex = 0; vertex < vertices; ++vertex) {
+      data.floats({arrays.positions.data() + vertex * 3, 3});
+      arrays.inverse_masses[vertex] = data.f32();
+    }
+    places.inverse_masses = {table[positions].offset + 12, 16, false};
   }
-  places.positions = {table[positions].offset, 16, false};
-  places.inverse_masses = {table[positions].offset + 12, 16, false};
 
   if (table[strand_uv].count) {
     arrays.root_uvs.resize(strands * 2);
@@ -129,7 +186,7 @@ FlkResult measure(const FlkStrands& strands, const FlkAssetInfo& info, const Rep
                        "its strands have from %" PRIu32 " to %" PRIu32 " vertices, but a .tfx file needs as many in each: "
                        "resample the strands or write .hair",
                        info.min_vertices_per_strand, info.max_vertices_per_strand);
-  const uint64_t uv_offset = header_size + uint64_t{strands.vertex_count} * 16;
+  const uint64_t uv_offset = written_header_size + uint64_t{strands.vertex_count} * 16;
   bytes = uv_offset + (strands.root_uvs ? uint64_t{strands.strand_count} * 8 : 0);
   if (strands.root_uvs && uv_offset > UINT32_MAX)
     return report.fail(FLK_ERROR_LIMIT, "WRITE_TFX_TOO_LARGE",
@@ -139,11 +196,11 @@ FlkResult measure(const FlkStrands& strands, const FlkAssetInfo& info, const Rep
 
 void write(const FlkStrands& strands, const FlkAssetInfo& info, const Report& report, ByteSink& sink) {
   const uint32_t vertices_per_strand = info.max_vertices_per_strand;
-  const uint64_t uv_offset = header_size + uint64_t{strands.vertex_count} * 16;
+  const uint64_t uv_offset = written_header_size + uint64_t{strands.vertex_count} * 16;
   sink.f32(4.0f);
   sink.u32(strands.strand_count);
   sink.u32(vertices_per_strand);
-  sink.u32(header_size);
+  sink.u32(written_header_size);
   sink.u32(strands.root_uvs ? static_cast<uint32_t>(uv_offset) : 0);
   for (int i = 0; i < 3 + 32; ++i) sink.u32(0);
 
@@ -159,6 +216,9 @@ void write(const FlkStrands& strands, const FlkAssetInfo& info, const Report& re
     report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_RADII",
                "its widths (radius %g to %g) are not in the .tfx file, which has no place for them: write .hair to keep them",
                double{info.min_radius}, double{info.max_radius});
+  if (strands.colors)
+    report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_COLORS",
+               "its colours are not in the .tfx file, whose block for them TressFX does not read: write .hair to keep them");
   if (!strands.inverse_masses)
     report.say(FLK_SEVERITY_INFO, "WRITE_FILLS_INVERSE_MASSES",
                "it has no inverse masses: the first two vertices of each strand are written as pinned, the rest as free");

@@ -204,6 +204,18 @@ inline Bytes smallTfx(bool with_uvs = true) {
   return file;
 }
 
+// The same strands as TressFX 3 lays them out: 296 + 144 + 24 bytes.
+inline Bytes smallTfx3(bool with_uvs = true) {
+  Bytes file;
+  file.f32(3).u32(3).u32(4).zeros(132).u32(296).u32(0).u32(with_uvs ? 296 + 144 : 0).zeros(12 + 128);
+  for (int strand = 0; strand < 3; ++strand)
+    for (int vertex = 0; vertex < 4; ++vertex)
+      file.f32s({0.25f * static_cast<float>(strand), 0.125f * static_cast<float>(vertex),
+                 0.0625f * static_cast<float>(strand * vertex)});
+  for (int strand = 0; strand < 3 && with_uvs; ++strand) file.f32s({0.25f * static_cast<float>(strand), 0.5f});
+  return file;
+}
+
 // Three strands of 2, 4 and 3 points with the arrays of `flags`.
 inline Bytes smallHair(unsigned flags = 7) {
   Bytes file;
@@ -215,7 +227,8 @@ inline Bytes smallHair(unsigned flags = 7) {
   if (flags & 4)
     for (int point = 0; point < 9; ++point) file.f32(0.001f * static_cast<float>(point + 1));
   if (flags & 8) file.zeros(9 * 4);
-  if (flags & 16) file.zeros(9 * 12);
+  if (flags & 16)
+    for (int point = 0; point < 9; ++point) file.f32s({0.125f * static_cast<float>(point), 0.25f, 1});
   if (flags & 32)
     for (int point = 0; point < 9; ++point) file.f32s({0.0625f * static_cast<float>(point), 0.75f});
   return file;

@@ -69,7 +69,7 @@ TEST(AssetSave, WhatIsReadIsWrittenAgain) {
     FlkResult result;
     EXPECT_EQ(saved(loaded->asset.get(), FLK_FORMAT_TFX, result), tfx.bytes) << "byte for byte";
   }
-  for (const unsigned flags : {2u, 3u, 6u, 7u}) {
+  for (const unsigned flags : {2u, 3u, 6u, 7u, 18u, 19u, 22u, 23u}) {
     const auto loaded = load(smallHair(flags));
     EXPECT_EQ(brokenRoundTrip(loaded->asset.get()), nullptr) << flags;
   }
@@ -113,7 +113,16 @@ TEST(AssetSave, WhatAFormatCannotHold) {
   saved(even->asset.get(), FLK_FORMAT_TFX, result);
   EXPECT_EQ(result, FLK_SUCCESS);
   EXPECT_NE(even->caught.find("WRITE_DROPS_RADII"), nullptr);
+  EXPECT_EQ(even->caught.find("WRITE_DROPS_COLORS"), nullptr);
   EXPECT_NE(even->caught.find("WRITE_TFX_UNUSUAL_COUNT"), nullptr) << "three vertices a strand";
+
+  const auto colored = load(smallHair(18));
+  Bytes tfx;
+  tfx.bytes = saved(colored->asset.get(), FLK_FORMAT_TFX, result);
+  EXPECT_EQ(result, FLK_SUCCESS);
+  ASSERT_NE(colored->caught.find("WRITE_DROPS_COLORS"), nullptr);
+  EXPECT_EQ(colored->caught.find("WRITE_DROPS_COLORS")->severity, uint32_t{FLK_SEVERITY_WARNING});
+  EXPECT_EQ(load(tfx)->strands().colors, nullptr);
 
   // 65,536 points fit a 16-bit segment count, 65,537 do not.
   for (const uint32_t points : {65'536u, 65'537u}) {

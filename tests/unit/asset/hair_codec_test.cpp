@@ -40,7 +40,42 @@ TEST(HairReader, ReadsEveryArray) {
   EXPECT_EQ(strands.root_uvs[0], 0.0f);
   EXPECT_EQ(strands.root_uvs[2], 0.125f) << "of the first point of strand 1, which is point 2";
   EXPECT_EQ(strands.root_uvs[4], 0.375f);
-  EXPECT_EQ(loaded->codes(), "HAIR_TRANSPARENCY_IGNORED HAIR_COLOR_IGNORED");
+  ASSERT_NE(strands.colors, nullptr);
+  EXPECT_EQ(info.has_colors, 1u);
+  EXPECT_EQ(strands.colors[3 * 8], 1.0f);
+  EXPECT_EQ(strands.colors[3 * 3], 0.375f);
+  EXPECT_EQ(strands.colors[3 * 3 + 1], 0.25f);
+  EXPECT_EQ(loaded->codes(), "HAIR_TRANSPARENCY_IGNORED");
+}
+
+TEST(HairReader, DefaultColourIsNoArray) {
+  const auto withDefault = [](unsigned flags, float red, float green, float blue) {
+    return load(smallHair(flags).setF32(28, red).setF32(32, green).setF32(36, blue));
+  };
+  const auto brown = withDefault(7, 0.5f, 0.25f, 0.125f);
+  ASSERT_EQ(brown->result, FLK_SUCCESS);
+  EXPECT_EQ(brown->strands().colors, nullptr);
+  EXPECT_EQ(brown->info().has_colors, 0u);
+  EXPECT_EQ(brown->codes(), "HAIR_DEFAULT_COLOR_IGNORED");
+  EXPECT_EQ(brown->finding("HAIR_DEFAULT_COLOR_IGNORED").byte_offset, 28u);
+  EXPECT_EQ(brown->finding("HAIR_DEFAULT_COLOR_IGNORED").severity, uint32_t{FLK_SEVERITY_INFO});
+  EXPECT_EQ(withDefault(7, not_a_number, 0, 0)->codes(), "HAIR_DEFAULT_COLOR_IGNORED");
+  for (const float grey : {0.0f, 0.5f, 1.0f}) EXPECT_EQ(withDefault(7, grey, grey, grey)->codes(), "");
+  EXPECT_EQ(withDefault(7 | 16, 0.5f, 0.25f, 0.125f)->codes(), "") << "the array says more";
+}
+
+TEST(HairReader, ColoursThatAreNone) {
+  Bytes file = smallHair(7 | 16);
+  const size_t colors = 128 + 6 + 9 * 16;
+  file.setF32(colors + 12 * 2 + 4, not_a_number);  // strand 1, its first point
+  file.setF32(colors + 12 * 7, -0.25f).setF32(colors + 12 * 7 + 4, 2.0f);
+  const auto loaded = load(file);
+  ASSERT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
+  EXPECT_EQ(loaded->codes(), "COLOR_NOT_FINITE COLOR_OUTSIDE_UNIT");
+  EXPECT_EQ(loaded->finding("COLOR_NOT_FINITE").byte_offset, colors + 24);
+  EXPECT_EQ(loaded->finding("COLOR_NOT_FINITE").strands[0], 1u);
+  EXPECT_EQ(loaded->finding("COLOR_OUTSIDE_UNIT").byte_offset, colors + 84);
+  EXPECT_EQ(loaded->finding("COLOR_OUTSIDE_UNIT").count, 1u) << "a vertex counts once";
 }
 
 TEST(HairReader, EveryCombinationOfArrays) {

@@ -91,14 +91,34 @@ TEST(Hairdata, FurLoadsWithin50Milliseconds) {
 #endif
 }
 
-TEST(Hairdata, TressFx3IsRefusedByName) {
-  for (const char* name : {"ponytail/back.tfx", "ponytail/side.tfx", "ponytail/tail.tfx", "ponytail/front_top.tfx"}) {
-    const std::string path = dataPath(name);
+TEST(Hairdata, PonytailOfTressFx3) {
+  const struct {
+    const char* name;
+    uint32_t strands;
+    bool both_ends;
+  } parts[] = {{"ponytail/back.tfx", 517, true},
+               {"ponytail/side.tfx", 3066, false},
+               {"ponytail/tail.tfx", 474, false},
+               {"ponytail/front_top.tfx", 876, false}};
+  for (const auto& part : parts) {
+    const std::string path = dataPath(part.name);
     NEEDS(path);
     const auto loaded = loadFile(path);
-    EXPECT_EQ(loaded->result, FLK_ERROR_FORMAT_UNKNOWN);
-    EXPECT_EQ(loaded->caught.error(), "TFX_VERSION_3");
-    EXPECT_NE(loaded->caught.text().find(path), std::string::npos);
+    ASSERT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
+    EXPECT_EQ(brokenPromise(loaded->asset.get()), nullptr);
+    EXPECT_EQ(brokenRoundTrip(loaded->asset.get()), nullptr);
+    const FlkAssetInfo info = loaded->info();
+    EXPECT_EQ(info.format, uint32_t{FLK_FORMAT_TFX});
+    EXPECT_EQ(info.strands_in_source, part.strands);
+    EXPECT_EQ(info.min_vertices_per_strand, 16u);
+    EXPECT_EQ(info.max_vertices_per_strand, 16u);
+    EXPECT_EQ(info.has_inverse_masses, 1u);
+    EXPECT_EQ(loaded->finding("TRAILING_BYTES").count, 0u) << loaded->codes();
+    EXPECT_EQ(loaded->finding("UNIT_SUSPECT").count, 1u) << "it is in centimetres";
+    const float* masses = loaded->strands().inverse_masses;
+    EXPECT_EQ(masses[1], 0.0f);
+    EXPECT_EQ(masses[2], 1.0f);
+    EXPECT_EQ(masses[14], part.both_ends ? 0.0f : 1.0f);
   }
 }
 

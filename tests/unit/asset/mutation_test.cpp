@@ -16,7 +16,12 @@ std::vector<Seed> seeds() {
   full_tfx.setU32(24, full_tfx.size()).f32s({0.5f, 0.25f, 0.125f});
   full_tfx.setU32(20, full_tfx.size()).zeros(12 * 8);
   full_tfx.setU32(28, full_tfx.size()).zeros(12 * 16);
+  Bytes full_tfx3 = smallTfx3();
+  full_tfx3.setU32(148, full_tfx3.size()).f32s({0.5f, 0.25f, 0.125f});
+  for (const auto& [field, bytes] : {std::pair{156u, 192u}, {160u, 12u}, {164u, 96u}})
+    full_tfx3.setU32(field, full_tfx3.size()).zeros(bytes);
   return {{"uv.tfx", smallTfx()},      {"plain.tfx", smallTfx(false)}, {"full.tfx", full_tfx},
+          {"uv3.tfx", smallTfx3()},    {"plain3.tfx", smallTfx3(false)}, {"full3.tfx", full_tfx3},
           {"odd.hair", smallHair(7)},  {"plain.hair", smallHair(2)},   {"full.hair", smallHair(63)}};
 }
 
@@ -106,7 +111,7 @@ TEST(Mutation, EveryAllocationRefused) {
 TEST(Mutation, EveryAllocationRefusedInCreate) {
   const uint32_t first_vertex[] = {0, 2, 4};
   const float positions[12] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0}, values[4] = {0.5f, 0.5f, 0.5f, 0.5f};
-  FlkStrands strands{FLK_TYPE_STRANDS, nullptr, 2, 4, first_vertex, positions, values, values, values};
+  FlkStrands strands{FLK_TYPE_STRANDS, nullptr, 2, 4, first_vertex, positions, values, values, values, positions};
   bool completed = false;
   for (size_t refuse = 0; !completed; ++refuse) {
     CountingAllocator counter(refuse);

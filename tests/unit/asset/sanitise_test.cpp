@@ -14,7 +14,7 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 struct Arrays {
   std::vector<uint32_t> first_vertex{0};
-  std::vector<float> positions, radii, root_uvs, inverse_masses;
+  std::vector<float> positions, radii, root_uvs, inverse_masses, colors;
 
   Arrays& strand(std::initializer_list<float> coordinates) {
     positions.insert(positions.end(), coordinates.begin(), coordinates.end());
@@ -32,6 +32,7 @@ struct Arrays {
     strands.radii = radii.empty() ? nullptr : radii.data();
     strands.root_uvs = root_uvs.empty() ? nullptr : root_uvs.data();
     strands.inverse_masses = inverse_masses.empty() ? nullptr : inverse_masses.data();
+    strands.colors = colors.empty() ? nullptr : colors.data();
     return strands;
   }
 };
@@ -61,6 +62,11 @@ TEST(Sanitise, GoodStrandsStayBitForBit) {
   arrays.radii = {0, 1, 2, 3, 4, 5, 6, 7};
   arrays.root_uvs = {0, 0, 0.5f, 1, 1, 0};
   arrays.inverse_masses = {0, 1, 2, 0, 0.5f, 1, 1e30f, 1e-40f};
+  arrays.colors.assign(arrays.positions.size(), 0.5f);
+  arrays.colors[0] = 0;
+  arrays.colors[1] = 1;
+  arrays.colors[2] = -0.0f;
+  arrays.colors[3] = 1e-40f;
   const auto made = create(arrays);
   ASSERT_EQ(made->result, FLK_SUCCESS) << made->caught.text();
   const FlkStrands strands = made->strands();
@@ -69,6 +75,8 @@ TEST(Sanitise, GoodStrandsStayBitForBit) {
   EXPECT_EQ(std::memcmp(strands.radii, arrays.radii.data(), arrays.radii.size() * 4), 0);
   EXPECT_EQ(std::memcmp(strands.root_uvs, arrays.root_uvs.data(), arrays.root_uvs.size() * 4), 0);
   EXPECT_EQ(std::memcmp(strands.inverse_masses, arrays.inverse_masses.data(), arrays.inverse_masses.size() * 4), 0);
+  EXPECT_EQ(std::memcmp(strands.colors, arrays.colors.data(), arrays.colors.size() * 4), 0);
+  EXPECT_EQ(made->info().has_colors, 1u);
   EXPECT_EQ(made->info().format, uint32_t{FLK_FORMAT_UNKNOWN});
 }
 
@@ -86,6 +94,9 @@ TEST(Sanitise, DropsEachKindAndKeepsTheRest) {
       .strand({0, 0, 0, 1e-30f, 0, 0});
   arrays.radii.resize(arrays.positions.size() / 3);
   for (size_t i = 0; i < arrays.radii.size(); ++i) arrays.radii[i] = static_cast<float>(i);
+  arrays.colors.assign(arrays.positions.size(), not_a_number);  // findings about dropped strands would mislead
+  std::fill_n(arrays.colors.begin(), 9, 0.25f);
+  std::fill_n(arrays.colors.begin() + 13 * 3, 9, 0.75f);
   const auto made = create(arrays);
   ASSERT_EQ(made->result, FLK_SUCCESS) << made->caught.text();
   EXPECT_EQ(made->codes(), "STRAND_TOO_SHORT POSITION_NOT_FINITE POSITION_OUT_OF_RANGE STRAND_ZERO_LENGTH");
@@ -106,6 +117,8 @@ TEST(Sanitise, DropsEachKindAndKeepsTheRest) {
   expect("STRAND_TOO_SHORT", {5, 6});
   EXPECT_EQ(made->strands().positions[9], 0.75f);
   EXPECT_EQ(made->strands().radii[3], 13.0f);
+  EXPECT_EQ(made->strands().colors[8], 0.25f);
+  EXPECT_EQ(made->strands().colors[9], 0.75f);
 }
 
 TEST(Sanitise, ListsTheFirstEightStrands) {
@@ -151,6 +164,22 @@ TEST(Sanitise, ReplacesWhatIsNoWidthUvOrMass) {
   EXPECT_EQ(strands.inverse_masses[0], 0.0f);
   EXPECT_EQ(strands.inverse_masses[2], 1.0f);
   EXPECT_EQ(made->info().has_radii, 1u);
+}
+
+TEST(Sanitise, ReplacesWhatIsNoColour) {
+  Arrays arrays;
+  arrays.goodStrand().goodStrand(1);
+  arrays.colors = {0.5f, not_a_number, 0.25f, 2, -1, 0.25f, infinity, -3, 0, 0, 0, 1, 0.5f, 1.0001f, 0.5f, 1, 1, 1};
+  const auto made = create(arrays);
+  ASSERT_EQ(made->result, FLK_SUCCESS);
+  EXPECT_EQ(made->codes(), "COLOR_NOT_FINITE COLOR_OUTSIDE_UNIT WIDTH_DEFAULTED");
+  EXPECT_EQ(made->finding("COLOR_NOT_FINITE").count, 2u);
+  EXPECT_EQ(made->finding("COLOR_NOT_FINITE").repaired, 1u);
+  EXPECT_EQ(made->finding("COLOR_OUTSIDE_UNIT").count, 2u);
+  EXPECT_EQ(made->finding("COLOR_OUTSIDE_UNIT").strands_listed, 2u);
+  EXPECT_NE(made->caught.find("COLOR_OUTSIDE_UNIT"), nullptr);
+  const std::vector<float> expected = {1, 1, 1, 1, 0, 0.25f, 1, 1, 1, 0, 0, 1, 0.5f, 1, 0.5f, 1, 1, 1};
+  EXPECT_EQ(std::vector<float>(made->strands().colors, made->strands().colors + 18), expected);
 }
 
 TEST(Sanitise, NotesWithoutChanging) {

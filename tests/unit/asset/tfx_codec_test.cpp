@@ -88,16 +88,21 @@ TEST(TfxReader, BodyCut) {
 TEST(TfxReader, Versions) {
   for (const float version : {0.0f, -4.0f, 1e30f, 4.1f, 5.0f, infinity, not_a_number})
     expectRefusal(smallTfx().setF32(0, version), FLK_ERROR_FORMAT_UNKNOWN, "TFX_VERSION_UNKNOWN", "version (byte 0)");
-  expectRefusal(smallTfx().setF32(0, 3.0f), FLK_ERROR_FORMAT_UNKNOWN, "TFX_VERSION_3", "TressFX 3");
+  for (const float version : {2.0f, 3.1f, 6.0f, not_a_number})
+    expectRefusal(smallTfx3().setF32(0, version), FLK_ERROR_FORMAT_UNKNOWN, "TFX_VERSION_UNKNOWN", "where 3 and 4 are read");
+  // The one's header with the other's version.
+  expectRefusal(smallTfx().setF32(0, 3.0f), FLK_ERROR_MALFORMED, "TFX_OFFSET_IN_HEADER", "(offset field at byte 144)");
+  expectRefusal(smallTfx3().setF32(0, 4.0f), FLK_ERROR_MALFORMED, "TFX_OFFSET_IN_HEADER", "(offset field at byte 12)");
 }
 
 TEST(TfxReader, ByteSwapped) {
-  Bytes file = smallTfx();
-  for (size_t i = 0; i + 4 <= file.size(); i += 4) {
-    std::swap(file.bytes[i], file.bytes[i + 3]);
-    std::swap(file.bytes[i + 1], file.bytes[i + 2]);
+  for (Bytes file : {smallTfx(), smallTfx3()}) {
+    for (size_t i = 0; i + 4 <= file.size(); i += 4) {
+      std::swap(file.bytes[i], file.bytes[i + 3]);
+      std::swap(file.bytes[i + 1], file.bytes[i + 2]);
+    }
+    expectRefusal(file, FLK_ERROR_MALFORMED, "TFX_BYTE_SWAPPED", "big-endian");
   }
-  expectRefusal(file, FLK_ERROR_MALFORMED, "TFX_BYTE_SWAPPED", "big-endian");
 }
 
 TEST(TfxReader, HugeCountsAskForNoMemory) {
@@ -105,10 +110,14 @@ TEST(TfxReader, HugeCountsAskForNoMemory) {
       {0xffffffffu, 4}, {0x80000001u, 4}, {3, 0xffffffffu}, {0xffffffffu, 0xffffffffu},
       {0x10000001u, 16},            // x 16 bytes = 4 GiB + 256: 256 in 32 bits
       {0x80000000u, 0x20000000u},   // x 16 bytes = 2^64: 0 in 64 bits
+      {0x15555556u, 1},             // x 12 bytes = 4 GiB + 8: 8 in 32 bits
   };
-  for (const auto& [strands, vertices] : counts) {
-    const Bytes file = smallTfx().setU32(4, strands).setU32(8, vertices);
-    expectRefusal(file, FLK_ERROR_MALFORMED, "TFX_BLOCK_PAST_END", "positions (offset field at byte 12)");
+  for (size_t i = 0; i < 2 * std::size(counts); ++i) {
+    const auto& [strands, vertices] = counts[i / 2];
+    Bytes file = i % 2 ? smallTfx3() : smallTfx();
+    file.setU32(4, strands).setU32(8, vertices);
+    expectRefusal(file, FLK_ERROR_MALFORMED, "TFX_BLOCK_PAST_END",
+                  i % 2 ? "positions (offset field at byte 144)" : "positions (offset field at byte 12)");
 
     CountingAllocator counter;
     const FlkHostAllocator allocator = counter.callbacks();
@@ -199,4 +208,100 @@ TEST(TfxReader, NumbersThatAreNone) {
   EXPECT_EQ(strands.inverse_masses[7], 0.0f);
   EXPECT_EQ(strands.root_uvs[2], 0.0f);
   EXPECT_EQ(strands.root_uvs[3], 0.5f);
+}
+
+TEST(Tfx3Reader, ReadsEveryField) {
+  const auto loaded = load(smallTfx3());
+  ASSERT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
+  const FlkAssetInfo info = loaded->info();
+  EXPECT_EQ(info.format, uint32_t{FLK_FORMAT_TFX});
+  EXPECT_EQ(info.strand_count, 3u);
+  EXPECT_EQ(info.vertex_count, 12u);
+  EXPECT_EQ(info.has_radii, 0u);
+  EXPECT_EQ(info.has_inverse_masses, 1u) << "implied by the format";
+  EXPECT_EQ(loaded->codes(), "WIDTH_DEFAULTED");
+  // Version 4 of the same strands gives the same asset, so that saving gives the same bytes.
+  FlkResult result;
+  EXPECT_EQ(saved(loaded->asset.get(), FLK_FORMAT_TFX, result), smallTfx().bytes);
+  EXPECT_EQ(saved(load(smallTfx3(false))->asset.get(), FLK_FORMAT_TFX, result), smallTfx(false).bytes);
+}
+
+TEST(Tfx3Reader, BothEndsFixed) {
+  for (const uint64_t flag : {uint64_t{1}, uint64_t{0xffffffffu}}) {
+    const auto loaded = load(smallTfx3().setU32(4, 2).setU32(8, 6).setU32(152, 0).setU32(16, flag));
+    ASSERT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
+    const float expected[12] = {0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0};
+    EXPECT_EQ(std::memcmp(loaded->strands().inverse_masses, expected, sizeof expected), 0);
+  }
+  // Strands that are shorter than what is fixed at their ends.
+  for (const unsigned vertices : {2u, 3u}) {
+    const auto loaded = load(smallTfx3(false).setU32(8, vertices).setU32(16, 1));
+    ASSERT_EQ(loaded->result, FLK_SUCCESS);
+    for (uint32_t i = 0; i < 3 * vertices; ++i) EXPECT_EQ(loaded->strands().inverse_masses[i], 0.0f);
+  }
+}
+
+TEST(Tfx3Reader, OptionalBlocks) {
+  const struct {
+    unsigned field, bytes;
+  } fields[] = {{148, 12}, {156, 192}, {160, 12}, {164, 96}};
+  Bytes file = smallTfx3().setU32(12, 4);
+  file.setU32(148, file.size()).f32s({0.5f, 0.25f, 0.125f});
+  for (const auto& [field, bytes] : fields)
+    if (field != 148) file.setU32(field, file.size()).zeros(bytes);
+  const auto loaded = load(file);
+  ASSERT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
+  EXPECT_EQ(loaded->strands().radii[3], 0.25f);
+  EXPECT_EQ(loaded->strands().radii[4], 0.125f);
+  EXPECT_EQ(loaded->strands().root_uvs[2], 0.25f);
+  EXPECT_EQ(loaded->codes(), "TFX_FOLLOW_STRANDS_IGNORED TFX_VERTEX_UV_IGNORED TFX_VERTEX_COLOR_IGNORED");
+  EXPECT_EQ(loaded->finding("TFX_FOLLOW_STRANDS_IGNORED").count, 4u);
+  EXPECT_EQ(loaded->finding("TFX_FOLLOW_STRANDS_IGNORED").byte_offset, 12u);
+  for (const auto& [field, bytes] : fields) {
+    Bytes shifted = file;
+    uint32_t offset = 0;
+    std::memcpy(&offset, shifted.bytes.data() + field, 4);
+    for (const auto& other : fields) shifted.setU32(other.field, 0);
+    expectRefusal(shifted.setU32(field, offset).cut(offset + bytes - 1), FLK_ERROR_MALFORMED, "TFX_BLOCK_PAST_END",
+                  "offset field at byte " + std::to_string(field));
+    expectRefusal(shifted.setU32(field, 295), FLK_ERROR_MALFORMED, "TFX_OFFSET_IN_HEADER", "inside the 296-byte header");
+    expectRefusal(shifted.setU32(field, 296), FLK_ERROR_MALFORMED, "TFX_BLOCKS_OVERLAP");
+  }
+}
+
+TEST(Tfx3Reader, HeaderAndBodyCut) {
+  for (const size_t length : {4u, 12u, 160u, 295u})
+    expectRefusal(smallTfx3().cut(length), FLK_ERROR_MALFORMED, "TFX_HEADER_TRUNCATED",
+                  "the header of a TressFX 3 file is 296 bytes, but the file ends at byte " + std::to_string(length));
+  expectRefusal(smallTfx3().cut(400), FLK_ERROR_MALFORMED, "TFX_BLOCK_PAST_END",
+                "broken.tfx: positions (offset field at byte 144) need 144 bytes from byte 296 for 3 strands of 4 vertices "
+                "(bytes 4 and 8), but the file ends at byte 400: it is truncated, fetch it again");
+  expectRefusal(smallTfx3().cut(463), FLK_ERROR_MALFORMED, "TFX_BLOCK_PAST_END",
+                "strand UVs (offset field at byte 152) need 24 bytes from byte 440");
+  expectRefusal(smallTfx3().setU32(144, 0), FLK_ERROR_MALFORMED, "TFX_OFFSET_IN_HEADER", "at byte 144");
+  expectRefusal(smallTfx3().setU32(144, 0xfffffff0u), FLK_ERROR_MALFORMED, "TFX_BLOCK_PAST_END", "from byte 4294967280");
+  expectRefusal(smallTfx3().setU32(4, 0), FLK_ERROR_EMPTY_ASSET, "TFX_NO_STRANDS", "0 strands (byte 4)");
+  EXPECT_EQ(load(smallTfx3(), "big.tfx", 2)->caught.error(), "TFX_TOO_LARGE");
+  EXPECT_EQ(load(smallTfx3(), "big.tfx", 3, 12)->result, FLK_SUCCESS);
+}
+
+TEST(Tfx3Reader, ReservedWordsAndTrailingBytes) {
+  const auto loaded = load(smallTfx3().zeros(5).setU32(140, 7).setU32(168, 7).setU32(292, 7));
+  ASSERT_EQ(loaded->result, FLK_SUCCESS);
+  EXPECT_EQ(loaded->codes(), "TRAILING_BYTES TFX_RESERVED_SET WIDTH_DEFAULTED");
+  EXPECT_EQ(loaded->finding("TRAILING_BYTES").byte_offset, 464u);
+  EXPECT_EQ(loaded->finding("TFX_RESERVED_SET").byte_offset, 140u);
+  EXPECT_EQ(loaded->finding("TFX_RESERVED_SET").count, 3u);
+}
+
+TEST(Tfx3Reader, NumbersThatAreNone) {
+  Bytes file = smallTfx3();
+  file.setF32(296 + 48 + 12 * 2 + 4, not_a_number);  // strand 1, vertex 2, y
+  file.setF32(440 + 16, infinity);                   // strand 2, u
+  const auto loaded = load(file);
+  ASSERT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
+  EXPECT_EQ(loaded->codes(), "POSITION_NOT_FINITE ROOT_UV_NOT_FINITE WIDTH_DEFAULTED");
+  EXPECT_EQ(loaded->finding("POSITION_NOT_FINITE").byte_offset, 296u + 48 + 24);
+  EXPECT_EQ(loaded->finding("ROOT_UV_NOT_FINITE").byte_offset, 456u);
+  EXPECT_EQ(loaded->strands().positions[3 * 4], 0.5f) << "strand 2 of the file has moved up unchanged";
 }

@@ -68,3 +68,20 @@ TEST(CommandUsage, NoDeviceIsThree) {
   EXPECT_FALSE(std::filesystem::exists(out));
   EXPECT_EQ(runCommand("preview " + smallRecipe() + " -o " + out + " --device no-such-device").status, 3);
 }
+
+TEST(CommandInspect, NamesColours) {
+  // One strand of two points with a colour each.
+  std::string hair("HAIR\x01\0\0\0\x02\0\0\0\x12\0\0\0\x01\0\0\0", 20);
+  hair.resize(128 + 2 * 12 + 2 * 12);
+  const unsigned char a_tenth[] = {0xcd, 0xcc, 0xcc, 0x3d};
+  std::copy(a_tenth, a_tenth + 4, hair.begin() + 128 + 12);
+  const std::string path = writeScratch("colored.hair", hair);
+  const CommandRun text = runCommand("inspect \"" + path + "\"");
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_NE(text.out.find("attributes  positions, colours\n"), std::string::npos) << text.out;
+  EXPECT_NE(runCommand("inspect --json \"" + path + "\"").out.find("\"colors\": true"), std::string::npos);
+  EXPECT_NE(runCommand("inspect --json " + smallRecipe()).out.find("\"colors\": false"), std::string::npos);
+  const CommandRun strict = runCommand("convert --strict \"" + path + "\" \"" + path + ".tfx\"");
+  EXPECT_EQ(strict.status, 1);
+  EXPECT_NE(strict.err.find("its colours are not in the .tfx file"), std::string::npos) << strict.err;
+}

@@ -66,7 +66,7 @@ Strands followStrands(const Strands& rest, const Strands& current, uint32_t n, d
     for (uint64_t j = 0; j <= n; ++j) {
       Vec3 offset{};
       if (j > 0) {
-        SplitMix64 random{seed + (guide * 1024 + j) * golden_gamma};
+        SplitMix64 random{seed + (guide * 1024 + j) * 2 * golden_gamma};
         const double u1 = random.next(), u2 = random.next(), angle = 2 * std::numbers::pi * u2;
         offset = radius * std::sqrt(u1) * (std::cos(angle) * x + std::sin(angle) * y);
         offset = rotateBetween(t, now, x, offset);

@@ -32,7 +32,8 @@ struct LightMaps {
 
 // Axes, texel size and empty depths; for a map that comes from elsewhere.
 ShadowMap shadowFrame(const Sphere& sphere, Vec3 direction_to_light, int size);
-ShadowMap perspectiveFrame(const Sphere& sphere, Vec3 origin, Vec3 axis, double half_angle, int size);
+// widest_cosine: of the angle between the axis and the widest ray, 1 where the axis points at the sphere.
+ShadowMap perspectiveFrame(const Sphere& sphere, Vec3 origin, Vec3 axis, double half_angle, int size, double widest_cosine);
 // The light's maps, empty; none where it casts no shadow or the sphere is empty.
 LightMaps lightFrames(const Light& light, const Sphere& sphere);
 // Adds all strands of the scene to a map.

@@ -63,14 +63,15 @@ ShadowMap shadowFrame(const Sphere& sphere, Vec3 direction_to_light, int size) {
   return map;
 }
 
-ShadowMap perspectiveFrame(const Sphere& sphere, Vec3 origin, Vec3 axis, double half_angle, int size) {
+ShadowMap perspectiveFrame(const Sphere& sphere, Vec3 origin, Vec3 axis, double half_angle, int size,
+                           double widest_cosine) {
   ShadowMap map;
   map.rho = sphere.radius;
   map.center = sphere.center;
   map.origin = origin;
   map.z = normalizeOrZero(axis);
   map.focal = (size / 2.0 - 3) / std::tan(half_angle);
-  map.near_depth = std::max(length(sphere.center - origin) - sphere.radius, 0.001 * sphere.radius);
+  map.near_depth = std::max((length(sphere.center - origin) - sphere.radius) * widest_cosine, 0.001 * sphere.radius);
   finishFrame(map, size);
   return map;
 }
@@ -86,6 +87,7 @@ LightMaps lightFrames(const Light& light, const Sphere& sphere) {
   const Vec3 way = sphere.center - light.position;
   const double r = length(way);
   double half_angle = std::numeric_limits<double>::infinity();
+  double widest_cosine = 1;
   Vec3 axis{};
   if (r >= 1.25 * sphere.radius) {
     half_angle = std::asin(sphere.radius / r);
@@ -94,13 +96,14 @@ LightMaps lightFrames(const Light& light, const Sphere& sphere) {
   if (light.kind == LightKind::spot && light.outer_angle <= std::numbers::pi / 3 && light.outer_angle < half_angle) {
     half_angle = light.outer_angle;
     axis = light.axis;
+    widest_cosine = std::cos(light.outer_angle);
   }
   if (std::isfinite(half_angle)) {
-    maps.faces.push_back(perspectiveFrame(sphere, light.position, axis, half_angle, size));
+    maps.faces.push_back(perspectiveFrame(sphere, light.position, axis, half_angle, size, widest_cosine));
     return maps;
   }
   for (const Vec3& z : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
-    maps.faces.push_back(perspectiveFrame(sphere, light.position, z, std::numbers::pi / 4, size));
+    maps.faces.push_back(perspectiveFrame(sphere, light.position, z, std::numbers::pi / 4, size, 1 / std::numbers::sqrt3));
   }
   return maps;
 }

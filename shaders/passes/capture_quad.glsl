@@ -35,7 +35,7 @@ void captureQuad(SegmentShape shape, uvec2 pixel, bool live) {
   if (kStore == FLK_STORE_HARD_DEPTH || kStore == FLK_STORE_HARD_PAYLOAD) {
     bool inside = insideHard(center, shape.axis, shape.lines, shape.extent, shape.direction, shape.tangent_b.w);
     if (!live || !inside || modifiers < 0.5 || behindHostDepth(pixel, f.depth)) return;
-    vec3 fibre = kColor ? mix(shape.color_a, shape.color_b, f.along) : vec3(0.0);
+    vec3 fibre = kColor ? fibreColor(shape, f.along, f.fraction) : vec3(0.0);
     storeHard(pixel, f.depth, packHard(f.tangent, hair_slot), kColor ? packSharedExponent(fibre) : 0u);
     return;
   }
@@ -50,7 +50,7 @@ void captureQuad(SegmentShape shape, uvec2 pixel, bool live) {
   uint code = alphaCodeTangent(alpha, kPayload);
 #endif
   if (!live || code == 0u || behindHostDepth(pixel, f.depth)) return;
-  vec3 fibre = kColor ? mix(shape.color_a, shape.color_b, f.along) : frame.hairs[hair_slot].color;
+  vec3 fibre = kColor ? fibreColor(shape, f.along, f.fraction) : frame.hairs[hair_slot].color;
 #if defined(FLK_CAPTURE_FORWARD)
   if (kStore == FLK_STORE_COUNT) { countFragment(); return; }
   vec3 color = radianceFull(frame.hairs[hair_slot], fibre, frameLight(), f.tangent, pixelRay(at), f.depth, pixel);

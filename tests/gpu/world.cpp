@@ -118,6 +118,16 @@ void World::add(const HairSpec& spec) {
       moved.min_bounds[axis] = std::min(moved.min_bounds[axis], value);
       moved.max_bounds[axis] = std::max(moved.max_bounds[axis], value);
     }
+  const double reach = double(spec.follow.radius) * std::max(1.0, double(spec.follow.spread_tip)) * (spec.follow.count ? 1 : 0);
+  double square = 0, thickest = 0;
+  reference::Sphere bounds;
+  for (int axis = 0; axis < 3; ++axis) square += std::pow(moved.max_bounds[axis] - moved.min_bounds[axis] + 2 * reach, 2);
+  for (const float r : spec.strands.radii) thickest = std::max(thickest, double(r) * double(spec.material.width_scale));
+  bounds.center = {(moved.min_bounds[0] + moved.max_bounds[0]) / 2.0 * s + spec.offset[0],
+                   (moved.min_bounds[1] + moved.max_bounds[1]) / 2.0 * s + spec.offset[1],
+                   (moved.min_bounds[2] + moved.max_bounds[2]) / 2.0 * s + spec.offset[2]};
+  bounds.radius = (std::sqrt(square) / 2 + thickest) * s * 1.001;
+  moved_sphere_ = bounds;  // of a world of one hair
   moved.address = host().uploadBuffer(std::as_bytes(std::span(buffer)));
   moved.entry_stages = VK_PIPELINE_STAGE_2_HOST_BIT, moved.entry_access = VK_ACCESS_2_HOST_WRITE_BIT;
   ASSERT_EQ(flkHairSetPositions(hair, &moved), FLK_SUCCESS);
@@ -159,7 +169,7 @@ void World::addModifier(const FlkOpacityModifier& m) {
 }
 
 void World::expose() {
-  const reference::Image picture = reference::resolve(twin, camera, reference::renderLightMaps(twin), gather(), {});
+  const reference::Image picture = reference::resolve(twin, camera, ownMaps(), gather(), {});
   double sum = 0, pixels = 0;
   for (const reference::Pixel& p : picture.pixels)
     if (p.fragments) sum += (p.rgb[0] + p.rgb[1] + p.rgb[2]) / 3, pixels += 1;
@@ -213,11 +223,21 @@ reference::Image World::image(const std::vector<float>& rgba) const {
   return picture;
 }
 
+reference::Sphere World::sphere() const { return moved_sphere_ ? *moved_sphere_ : reference::boundingSphere(twin); }
+
+std::vector<reference::LightMaps> World::ownMaps() const {
+  std::vector<reference::LightMaps> all;
+  for (const reference::Light& light : twin.lights) {
+    all.push_back(reference::lightFrames(light, sphere()));
+    for (reference::ShadowMap& map : all.back().faces) reference::drawShadowMap(map, twin);
+  }
+  return all;
+}
+
 std::vector<reference::LightMaps> World::readMaps() {
   std::vector<reference::LightMaps> all;
-  const reference::Sphere sphere = reference::boundingSphere(twin);
   for (std::size_t i = 0; i < twin.lights.size(); ++i) {
-    reference::LightMaps maps = reference::lightFrames(twin.lights[i], sphere);
+    reference::LightMaps maps = reference::lightFrames(twin.lights[i], sphere());
     for (std::size_t face = 0; face < maps.faces.size(); ++face) {
       FlkShadowMap map{};
       EXPECT_EQ(flkViewGetShadowMap(view, uint32_t(i), uint32_t(face), &map), FLK_SUCCESS);
@@ -240,16 +260,22 @@ reference::FragmentLists World::gather(reference::Payload payload) const {
 }
 
 reference::Image World::expected(reference::Method method, reference::TailOrder tail,
-                                 const std::vector<reference::LightMaps>& maps) const {
+                                 const std::vector<reference::LightMaps>& maps, std::array<double, 2> shift_px) const {
+  reference::Camera seen = camera;
+  if (shift_px[0] != 0 || shift_px[1] != 0) {  // in clip space: perspective shifts with the divisor
+    const bool perspective = reference::isPerspective(camera);
+    seen.clip_from_view[perspective ? 8 : 12] += (perspective ? -2 : 2) * shift_px[0] / view_spec.width;
+    seen.clip_from_view[perspective ? 9 : 13] += (perspective ? -2 : 2) * shift_px[1] / view_spec.height;
+  }
   reference::ResolveOptions options;
   options.method = method;
   options.tail = tail;
   if (method == reference::Method::hard) {
     reference::GatherOptions gathering;
     gathering.modifiers = modifiers;
-    return reference::renderHard(twin, camera, maps, gathering);
+    return reference::renderHard(twin, seen, maps, gathering);
   }
-  return reference::resolve(twin, camera, maps, gather(), options);
+  return reference::resolve(twin, seen, maps, gather(), options);
 }
 
 float widthScale(const StrandArrays& strands, const ViewSpec& view, double width_px) {

@@ -42,8 +42,13 @@ public:
   std::vector<float> render(FlkFrame frame, bool once = false);
   reference::Image image(const std::vector<float>& rgba) const;
   std::vector<reference::LightMaps> readMaps();  // as the last frame left them
-  reference::FragmentLists gather(reference::Payload payload = reference::Payload::unquantised) const;
-  reference::Image expected(reference::Method method, reference::TailOrder tail, const std::vector<reference::LightMaps>& maps) const;
+  reference::FragmentLists gather(reference::Payload payload = reference::Payload::kept) const;
+  // The sphere of the shadow maps: of the hairs, or of the bounds that came with host positions.
+  reference::Sphere sphere() const;
+  std::vector<reference::LightMaps> ownMaps() const;  // the reference's
+  // `shift`: of the camera, in pixels.
+  reference::Image expected(reference::Method method, reference::TailOrder tail, const std::vector<reference::LightMaps>& maps,
+                            std::array<double, 2> shift_px = {0, 0}) const;
 
   ViewSpec view_spec;
   reference::Camera camera;
@@ -62,6 +67,7 @@ public:
 
 private:
   std::vector<std::unique_ptr<FlkHostShadow>> kept_;
+  std::optional<reference::Sphere> moved_sphere_;
 };
 
 // Mean width that the thickest strand has at the view's target, as a factor of the asset's widths.

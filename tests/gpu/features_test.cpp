@@ -273,11 +273,11 @@ constexpr Variant kVariants[] = {
 
 // A picture without antialiasing jumps where a pixel's centre crosses a strand's edge, and where it lies within rounding of one
 // (fp32 leaves 1.5e-5 pixels at the border of 256) there is no value to compare with. Such pixels change by more than 2 codes
-// when everything moves by 2e-4 pixel; they take the actual value, and are counted.
+// when everything moves by 1e-4 pixel; they take the actual value, and are counted.
 std::size_t settleEdges(const World& world, const std::vector<reference::LightMaps>& maps, const reference::Image& actual,
                         reference::Image& expected) {
   std::size_t settled = 0;
-  constexpr double kShift = 2e-4;
+  constexpr double kShift = 1e-4;
   for (const std::array<double, 2> shift : {std::array{-kShift, 0.0}, {kShift, 0.0}, {0.0, -kShift}, {0.0, kShift}}) {
     const reference::Image moved = world.expected(Method::hard, TailOrder::list, maps, shift);
     for (std::size_t i = 0; i < moved.pixels.size(); ++i) {

@@ -270,7 +270,7 @@ typedef struct FlkLight {
   uint32_t casts_shadow;   /* 1: hair attenuates it, through a shadow map of this view */
   uint32_t shadow_size;    /* texels a side, even [64, 8192]; optional: 0 is 1024. A point light amid hair has six maps */
   uint32_t kind;           /* FLK_LIGHT_...; optional: 0 is directional */
-  double position[3];      /* point, spot: world space */
+  double position[3];      /* point, spot: world space (metre), within 1e15 of the origin */
   float range;             /* point, spot: nothing arrives beyond (metre) >= 0; optional: 0 is no end */
   float source_radius;     /* point, spot: radiance is that of this distance for all that is nearer (metre); 0 is 1 mm */
   float inner_angle, outer_angle; /* spot: half angles of full light and of none (radian) 0 <= inner < outer <= pi / 2 */

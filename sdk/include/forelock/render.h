@@ -361,7 +361,8 @@ typedef struct FlkFrame {
   uint32_t reversed_depth;   /* 1: near is depth 1 */
   uint32_t hair_count;       /* [0, 63] */
   const FlkHair* hairs;      /* in drawing order; each at most once */
-  uint32_t light_count;      /* [0, 4096], with at most 96 hair shadow maps of together maxImageDimension2D squared texels */
+  uint32_t light_count;      /* [0, 4096], with at most 96 hair shadow maps, which share one image (FLK_ERROR_LIMIT: they
+                                do not fit into maxImageDimension2D squared) */
   const FlkLight* lights;
   float ambient[3];          /* radiance from everywhere, >= 0 */
   float exposure;            /* FLK_METHOD_FORWARD with FLK_PAYLOAD_PAPER cuts colours at 1 / exposure; optional: 0 is 1 */

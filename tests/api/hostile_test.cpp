@@ -94,7 +94,7 @@ TEST_F(Hostile, cameras) {
 
 TEST_F(Hostile, numbers) {
   check({
-      {"method", kInvalid, [](FlkFrame& f) { f.method = 3; }},
+      {"method", kInvalid, [](FlkFrame& f) { f.method = 6; }},
       {"method", kInvalid, [](FlkFrame& f) { f.method = UINT32_MAX; }},
       {"k 33", kInvalid, [](FlkFrame& f) { f.k = 33; }},
       {"k one below FLK_K_NONE", kInvalid, [](FlkFrame& f) { f.k = FLK_K_NONE - 1; }},
@@ -112,7 +112,7 @@ TEST_F(Hostile, numbers) {
 
 TEST_F(Hostile, lights) {
   check({
-      {"two", kInvalid, [](FlkFrame& f) { f.light_count = 2; }},
+      {"4097", kInvalid, [](FlkFrame& f) { f.light_count = 4097; }},
       {"none there", kInvalid, [](FlkFrame& f) { f.lights = nullptr; }},
       {"zero direction", kInvalid, [this](FlkFrame&) { for (float& d : scene.light.direction) d = 0.0f; }},
       {"NaN direction", kInvalid, [this](FlkFrame&) { scene.light.direction[1] = kNan; }},
@@ -338,7 +338,7 @@ TEST_F(Hostile, nullsAndTags) {
   EXPECT_EQ(flkHairCreate(scene.context, &hair_desc, nullptr), kInvalid);
   for (const auto& spoil : std::vector<std::function<void(FlkHairDesc&)>>{
            [](FlkHairDesc& d) { d.type = FLK_TYPE_CONTEXT; }, [](FlkHairDesc& d) { d.next = &extension; },
-           [](FlkHairDesc& d) { d.asset = nullptr; }, [](FlkHairDesc& d) { d.flags = 2; }}) {
+           [](FlkHairDesc& d) { d.asset = nullptr; }, [](FlkHairDesc& d) { d.flags = 8; }}) {
     const FlkHairDesc desc = spoilt(hair_desc, spoil);
     EXPECT_EQ(flkHairCreate(scene.context, &desc, &made), kInvalid);
     EXPECT_EQ(made, nullptr);

@@ -117,7 +117,7 @@ FLK_API void flkMaterialDefault(FlkMaterial* material);
 enum {
   FLK_HAIR_KEEP_ORDER = 1u,  /* draw strands in the asset's order, not shuffled */
   FLK_HAIR_IGNORE_COLORS = 2u, /* leave the asset's vertex colours out, and their memory */
-  FLK_HAIR_HOST_POSITIONS = 4u /* positions will come from flkHairSetPositions: 36 bytes more a strand */
+  FLK_HAIR_HOST_POSITIONS = 4u /* positions will come from flkHairSetPositions: 12 bytes more a vertex, 36 a strand */
 };
 
 /* A picture of the scalp: each strand's colours are multiplied by the pixel at its root's UV (docs/methods.md section 2). */

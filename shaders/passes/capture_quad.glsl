@@ -53,7 +53,7 @@ void captureQuad(SegmentShape shape, uvec2 pixel, bool live) {
   vec3 fibre = kColor ? fibreColor(shape, f.along, f.fraction) : frame.hairs[hair_slot].color;
 #if defined(FLK_CAPTURE_FORWARD)
   if (kStore == FLK_STORE_COUNT) { countFragment(); return; }
-  vec3 color = radianceFull(frame.hairs[hair_slot], fibre, frameLight(), f.tangent, pixelRay(at), f.depth, pixel);
+  vec3 color = radianceFull(frame.hairs[hair_slot], fibre, frameLight(pixel), f.tangent, pixelRay(at), f.depth, pixel);
   addWork();
   storeFragment(pixel, f.depth, f.tangent, packColor(color, code, frame.color_range, kPayload), 0u, alpha, color);
 #elif defined(FLK_CAPTURE_DISPLAY)

@@ -11,7 +11,7 @@ struct ShadeSource {
 };
 
 ShadeSource shadeSource(uvec2 pixel) {
-  return ShadeSource(frame.hairs[0], frameLight(), pixelRay(vec2(pixel) + 0.5), pixel);
+  return ShadeSource(frame.hairs[0], frameLight(pixel), pixelRay(vec2(pixel) + 0.5), pixel);
 }
 
 HairConstants hairOf(uint slot, ShadeSource source) {

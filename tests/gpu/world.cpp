@@ -144,7 +144,7 @@ void World::addLight(const FlkLight& light) {
   l.position = {light.position[0], light.position[1], light.position[2]};
   for (int i = 0; i < 3; ++i) l.radiance[i] = light.radiance[i];
   l.range = light.range;
-  l.source_radius = std::max(double(light.source_radius), 1e-3);
+  l.source_radius = light.source_radius > 0 ? double(light.source_radius) : 1e-3;
   l.inner_angle = light.inner_angle, l.outer_angle = light.outer_angle;
   l.shadow = light.casts_shadow, l.shadow_size = light.shadow_size ? int(light.shadow_size) : 1024;
   if (light.host_shadow) {

@@ -17,6 +17,7 @@ TEST_F(Hostile, cameras) {
       {"NaN view", kInvalid, [](FlkFrame& f) { f.view_from_world[3] = std::nan(""); }},
       {"NaN view position", kInvalid, [](FlkFrame& f) { f.view_from_world[12] = std::nan(""); }},
       {"infinite view position", kInvalid, [](FlkFrame& f) { f.view_from_world[14] = -double{kInfinity}; }},
+      {"view from beyond 1e15", kInvalid, [](FlkFrame& f) { f.view_from_world[13] = 1.1e15; }},
       {"zero view", kInvalid, [](FlkFrame& f) { for (double& m : f.view_from_world) m = 0.0; }},
       {"scaled view", kInvalid, [](FlkFrame& f) { f.view_from_world[0] = 2.0; }},
       {"projective view", kInvalid, [](FlkFrame& f) { f.view_from_world[3] = 0.5; }},
@@ -229,12 +230,14 @@ TEST_F(Hostile, transforms) {
     EXPECT_EQ(flkHairSetTransform(hair, matrix), FLK_ERROR_INVALID_ARGUMENT) << what;
   }
   EXPECT_EQ(flkHairSetTransform(hair, nullptr), FLK_ERROR_INVALID_ARGUMENT);
-  // Far away is no error: the plan finds it out of view.
-  const double far_away[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1e300, 0, 0, 1};
-  if (flkHairSetTransform(hair, far_away) == FLK_SUCCESS) {
-    FlkPlan plan = nullptr;
-    EXPECT_EQ(scene.render(view, good(1), &plan), FLK_SUCCESS);
-  }
+  // Far away is no error: the plan finds it out of view. But where floats end, it could not be placed any more.
+  double far_away[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1e15, 0, 0, 1};
+  ASSERT_EQ(flkHairSetTransform(hair, far_away), FLK_SUCCESS) << scene.last_message;
+  FlkPlan plan = nullptr;
+  EXPECT_EQ(scene.render(view, good(1), &plan), FLK_SUCCESS);
+  EXPECT_EQ(infoOf(plan).pass_count, 0u);
+  far_away[12] = 1e300;
+  EXPECT_EQ(flkHairSetTransform(hair, far_away), FLK_ERROR_INVALID_ARGUMENT);
 }
 
 TEST_F(Hostile, nullsAndTags) {

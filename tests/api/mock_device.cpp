@@ -263,7 +263,6 @@ VKAPI_ATTR VkResult VKAPI_CALL BindImageMemory(VkDevice, VkImage image, VkDevice
   return bind(image, Kind::Image, memory, offset, "vkBindImageMemory");
 }
 
-// The host's address of the object does as the device's: unique, and told apart from other words.
 VKAPI_ATTR VkDeviceAddress VKAPI_CALL GetBufferDeviceAddress(VkDevice device, const VkBufferDeviceAddressInfo* info) {
   Driver& driver = Driver::current();
   driver.checkDevice(device, "vkGetBufferDeviceAddress");
@@ -272,8 +271,7 @@ VKAPI_ATTR VkDeviceAddress VKAPI_CALL GetBufferDeviceAddress(VkDevice device, co
   if (!(buffer->usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) || !buffer->memory ||
       !(buffer->memory->addressable || buffer->memory->of_host))
     driver.breach("vkGetBufferDeviceAddress: the buffer or its memory was not made for that");
-  driver.giveAddress(buffer);
-  return reinterpret_cast<VkDeviceAddress>(buffer);
+  return driver.giveAddress(buffer);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL CreateImageView(VkDevice device, const VkImageViewCreateInfo* info,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 namespace mock {
 namespace {
@@ -142,8 +143,7 @@ VkDeviceAddress Driver::hostBuffer(VkDeviceSize size) {
   Object* buffer = make(Kind::Buffer);
   buffer->of_host = true;
   buffer->size = size;
-  giveAddress(buffer);
-  return reinterpret_cast<VkDeviceAddress>(buffer);
+  return giveAddress(buffer);
 }
 
 size_t Driver::alive(Kind kind) const {
@@ -255,12 +255,23 @@ void Driver::use(Object* object) {
   for (Object* part : object->uses) use(part);
 }
 
+VkDeviceAddress Driver::giveAddress(Object* buffer) {
+  if (buffer->address == 0) {
+    buffer->address = next_address_;
+    device_addresses_[buffer->address] = buffer;
+    next_address_ += (buffer->size + 511) / 256 * 256;  // with a gap behind it
+  }
+  return buffer->address;
+}
+
 void Driver::useAddresses(const void* data, size_t size) {
   for (size_t at = 0; at + sizeof(VkDeviceAddress) <= size; at += sizeof(uint32_t)) {
     VkDeviceAddress word;
     std::memcpy(&word, static_cast<const std::byte*>(data) + at, sizeof word);
-    auto* object = reinterpret_cast<Object*>(word);
-    if (word && device_addresses_.count(object)) use(object);
+    const auto after = device_addresses_.upper_bound(word);
+    if (after == device_addresses_.begin()) continue;
+    const auto& [address, buffer] = *std::prev(after);
+    if (word - address < buffer->size) use(buffer);
   }
 }
 

@@ -37,6 +37,7 @@ struct Object {
   VkFlags usage = 0;                // buffer, image, image view; pool: its flags
   VkFormat format = VK_FORMAT_UNDEFINED;  // image, image view
   bool mutable_format = false;      // image
+  VkDeviceAddress address = 0;      // buffer, once it was asked for
   Object* memory = nullptr;         // buffer, image: what it is bound to
   VkDeviceSize memory_offset = 0;
   uint32_t memory_type = 0;         // memory
@@ -134,9 +135,9 @@ public:
   void enter(const char* name);
   void checkDevice(VkDevice handle, const char* by);
   void use(Object* object);
-  // Buffers whose device address is among the words that shaders are given: used as if they were bound.
+  // Buffers that words given to shaders point into: used as if they were bound. Addresses are never given twice.
   void useAddresses(const void* data, size_t size);
-  void giveAddress(Object* buffer) { device_addresses_.insert(buffer); }
+  VkDeviceAddress giveAddress(Object* buffer);
   bool busy(const Object* object) const { return object->last_frame > completed; }
   void destroy(const void* handle, Kind kind, const char* by);
   void dropSet(Object* pool, Object* set, const char* by);
@@ -157,7 +158,9 @@ public:
 
 private:
   std::vector<std::unique_ptr<Object>> objects_;
-  std::unordered_set<const void*> addresses_, device_addresses_;
+  std::unordered_set<const void*> addresses_;
+  std::map<VkDeviceAddress, Object*> device_addresses_;
+  VkDeviceAddress next_address_ = 0x5EED00000000;  // whose upper word is no number that shaders are given
 };
 
 // Where a buffer's bytes are; NULL: it has no memory.

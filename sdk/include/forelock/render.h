@@ -161,8 +161,8 @@ FLK_API FlkResult flkCmdUpload(VkCommandBuffer cmd, FlkHair hair);
  * the hair. */
 FLK_API void flkHairReleaseStaging(FlkHair hair);
 
-/* Rigid transform, with a uniform scale if need be, as a column-major 4x4 (last row 0 0 0 1), from asset to world. Widths
- * scale by the cube root of its determinant. Holds for plans made afterwards. */
+/* Rigid transform, with a uniform scale if need be, as a column-major 4x4 (last row 0 0 0 1), from asset to world, values
+ * within 1e15. Widths scale by the cube root of its determinant. Holds for plans made afterwards. */
 FLK_API FlkResult flkHairSetTransform(FlkHair hair, const double world_from_hair[16]);
 /* The transform that the frame before drew it with, for velocity. NULL: the same as now, which is also how a hair starts.
  * Holds for plans made afterwards. */
@@ -356,7 +356,7 @@ typedef struct FlkFrame {
   const void* next; /* NULL */
   uint64_t frame_number;     /* of this view; rises with every plan, from 1 */
   uint64_t completed_frame;  /* the last frame of this view whose commands the host knows to have completed; 0: none */
-  double view_from_world[16];/* rigid */
+  double view_from_world[16];/* rigid, values within 1e15 */
   float clip_from_view[16];  /* perspective or orthographic, Vulkan clip space */
   uint32_t reversed_depth;   /* 1: near is depth 1 */
   uint32_t hair_count;       /* [0, 63] */

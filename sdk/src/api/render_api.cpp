@@ -242,7 +242,7 @@ const char* rootImageFault(const FlkRootImage& image, const FlkStrands& strands)
 // Null, or why `matrix` places nothing.
 const char* transformFault(const double* matrix, forelock::Mat4& m) {
   for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(matrix[i])) return "world_from_hair holds a value that is not finite";
+    if (!(std::abs(matrix[i]) <= 1e15)) return "world_from_hair holds a value that is not within 1e15";
     m[i] = matrix[i];
   }
   if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) return "the last row of world_from_hair must be 0 0 0 1";

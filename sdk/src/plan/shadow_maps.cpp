@@ -130,8 +130,10 @@ const char* layoutShadowMaps(std::span<const LightFacts> lights, std::span<const
     area += double(layout.faces.items[i].size) * layout.faces.items[i].size;
     widest = std::max(widest, layout.faces.items[i].size);
   }
-  std::stable_sort(order.begin(), order.begin() + layout.faces.count,
-                   [&](uint32_t a, uint32_t b) { return layout.faces.items[a].size > layout.faces.items[b].size; });
+  std::sort(order.begin(), order.begin() + layout.faces.count, [&](uint32_t a, uint32_t b) {
+    const uint32_t size_a = layout.faces.items[a].size, size_b = layout.faces.items[b].size;
+    return size_a != size_b ? size_a > size_b : a < b;
+  });
   const uint32_t columns = uint32_t(std::ceil(std::sqrt(area) / widest));
   const uint64_t width = std::min<uint64_t>(uint64_t(columns) * widest, std::max(limit, widest));
   uint64_t x = 0, y = 0, shelf = 0;

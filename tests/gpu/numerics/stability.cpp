@@ -1,6 +1,6 @@
 #include "stability.h"
 
-#include "compute_device.h"
+#include "scene.h"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +86,7 @@ bool finishStability() {
     return std::pair(rank(a), a.row) < std::pair(rank(b), b.row);
   });
   std::ofstream file(outputPath());
-  file << kIntroduction << "Device: " << ComputeDevice::shared().name() << ".\n\n"
+  file << kIntroduction << "Device: " << host().deviceName() << ", " << host().driverName() << ".\n\n"
        << "| row | case | threshold | measured | where |\n|---|---|---|---|---|\n";
   for (const Row& row : rows())
     file << nameOf(row) << row.threshold << " | " << row.measured << " | `" << row.where << "` |\n";

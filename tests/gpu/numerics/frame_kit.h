@@ -95,6 +95,10 @@ inline bool nearTie(double alpha, double steps) {
   return std::fabs(q - std::floor(q) - 0.5) < 2e-3;
 }
 
+// lavapipe (Mesa 22.3.6 and later: LP_MAX_TGSI_LOOP_ITERATIONS) silently ends what loops remain after 65,535 rounds of all loops of an
+// invocation. Rows that need more are not held there.
+inline bool loopsAreLimited() { return host().deviceName().find("llvmpipe") != std::string::npos; }
+
 // Appends to a list in words.
 inline void enlist(std::string& list, const std::string& item) {
   if (!list.empty()) list += ", ";

@@ -100,7 +100,10 @@ TEST(OpacityRange, OneAndNone) {
       FlkFrame frame = frameOf(way, capture.capture);
       {
         Scene opaque(layers(view, 20, false), plainMaterial(1, 1), view);
+        host().setOutputs(1u << FLK_OUTPUT_TRANSMITTANCE);
         const std::vector<float> image = opaque.render(frame);
+        for (const float t : host().readOutput(FLK_OUTPUT_TRANSMITTANCE)) open += t != 0.0f;
+        host().setOutputs(0);
         for (std::size_t i = 3; i < values; i += 4) open += image[i] != 1.0f;
       }
       {
@@ -108,7 +111,7 @@ TEST(OpacityRange, OneAndNone) {
         const std::vector<float> image = none.render(frame);
         drawn += std::any_of(image.begin(), image.end(), [](float v) { return v != 0; });
       }
-      // Forty faint layers before an opaque one, which is in the tail of all that have one; black, before a sun.
+      // Forty faint layers before an opaque one, which is in the tail of all that have one; unlit, before a sun.
       StrandArrays strands = layers(view, 40, true);
       strands.add({flatPoint(view, -2, 16, -0.9), flatPoint(view, 1e4, 16, -0.9)}, 2);  // of which the picture sees the root
       FlkMaterial m = plainMaterial(1, 0);
@@ -125,7 +128,7 @@ TEST(OpacityRange, OneAndNone) {
   EXPECT_EQ(open, 0u);
   EXPECT_EQ(drawn, 0u);
   EXPECT_LE(through.value(), 1);
-  record("G15", "opacity 1, every method: pixels not opaque", "0", std::to_string(open));
+  record("G15", "opacity 1, every method: pixels not opaque, or with a transmittance output other than 0", "0", std::to_string(open));
   record("G15", "opacity 0, every method: pictures with anything in them", "0", std::to_string(drawn));
   record("G15", "opacity 1 behind 40 faint layers, every method: what a background of 1e4 adds", "<= 1 code", format(through.value()) + " codes");
 }
@@ -135,14 +138,12 @@ float evenAlpha(uint32_t count) { return float(-std::expm1(std::log(0.25) / coun
 
 TEST(Layers, NoneIgnored) {
   const ViewSpec view = flatView(16, 16);
-  const uint32_t counts[] = {1, 8, 9, 100, 500, 513, 5000};
-  std::vector<float> exact[7];
+  const uint32_t counts[] = {1, 8, 9, 100, 500, 513, 1200, 5000};
   for (const MethodWay& way : kMethodWays) {
-    Worst excess, few;
+    Worst few, many;
     std::string each, rmse;
     std::size_t lost = 0;
-    for (std::size_t c = 0; c < 7; ++c) {
-      const uint32_t count = counts[c];
+    for (const uint32_t count : counts) {
       const float alpha = evenAlpha(count);
       Scene scene(layers(view, count, false), plainMaterial(alpha, alpha), view);
       scene.setLight(samples::kConditionLight, 1, 0);
@@ -151,21 +152,22 @@ TEST(Layers, NoneIgnored) {
       const double truth = std::pow(1 - rootCoded(double(alpha), way.method == FLK_METHOD_FORWARD ? 511 : 1023), count);
       Worst codes;
       for (std::size_t i = 3; i < image.size(); i += 4) codes.see(255 * std::fabs(1 - double(image[i]) - truth));
-      // Half a code of fp16 and fp32; each tail fragment's tau is rounded to 2^-16, all of them alike.
-      const bool sums = way.order == reference::TailOrder::deterministic;
-      excess.see(codes.value() / (0.5 + (sums ? 255 * truth * count * 0x1p-17 * std::numbers::ln2 : 0)));
-      if (count <= 513) few.see(codes.value());
+      (count <= 1200 ? few : many).see(codes.value());
       enlist(each, format(codes.value()));
-      if (way.method == FLK_METHOD_EXACT) exact[c] = image;
-      const reference::Difference d = reference::compare(scene.toImage(image), scene.toImage(exact[c]));
-      enlist(rmse, format(d.rmse));
+      reference::GatherOptions coded;
+      coded.payload = reference::Payload::standard;
+      const reference::FragmentLists lists = reference::gatherFragments(scene.reference_scene, scene.camera, coded);
+      const reference::Image exact = reference::resolve(scene.reference_scene, scene.camera, {}, lists, {});
+      enlist(rmse, format(reference::compare(scene.toImage(image), exact).rmse));
     }
     EXPECT_EQ(lost, 0u) << way.name;
-    EXPECT_LE(excess.value(), 1) << way.name;
     EXPECT_LE(few.value(), 1) << way.name;
-    record("G16", std::string(way.name) + ", 1, 8, 9, 100, 500, 513 layers: opacity against float64, most", "<= 1 code", format(few.value()) + " codes");
-    record("G16", std::string(way.name) + ", also 5000: over what n roundings of 2^-17 and half a code allow", "<= 1", format(excess.value()));
-    record("G16", std::string(way.name) + ", 1, 8, 9, 100, 500, 513, 5000 layers: codes of opacity; rmse of colour against exact", "reported", each + "; " + rmse);
+    const bool limited = way.method == FLK_METHOD_EXACT && loopsAreLimited();
+    EXPECT_TRUE(limited || many.value() <= 1) << way.name << " " << many.value();
+    record("G16", std::string(way.name) + ", 1, 8, 9, 100, 500, 513, 1200 layers: opacity against float64, most", "<= 1 code", format(few.value()) + " codes");
+    record("G16", std::string(way.name) + ", 5000 layers: the same",
+           limited ? "<= 1 code: **not held**, this driver ends loops after 65,535 rounds" : "<= 1 code", format(many.value()) + " codes");
+    record("G16", std::string(way.name) + ", all of these: codes of opacity; rmse of colour against exact in float64", "reported", each + "; " + rmse);
   }
 }
 
@@ -268,7 +270,7 @@ TEST(Overflow, SilhouetteAndStoredNodes) {
 }
 
 TEST(Blend, RoundOff) {
-  const ViewSpec view = flatView(64, 64);
+  const ViewSpec view = flatView(32, 32);
   for (const auto& [low, high] : {std::pair{0.004f, 0.02f}, std::pair{0.02f, 0.6f}}) {
     Scene scene(layers(view, 500, false), plainMaterial(low, high), view);
     scene.setLight(samples::kConditionLight, 1, 0);
@@ -297,7 +299,7 @@ TEST(Blend, RoundOff) {
 
 // What shows of a sun behind hair: from all of it to none, in one picture; on a display, which stops at 1.
 TEST(Background, NoFringe) {
-  const ViewSpec view = flatView(256, 16);
+  const ViewSpec view = flatView(256, 4);
   const double sun = 1e4;
   for (const uint32_t count : {4u, 64u, 500u}) {
     // T from 1 to 1e-7 across the picture.
@@ -305,14 +307,14 @@ TEST(Background, NoFringe) {
     for (const float below : {1.0f, 0.25f}) {  // the background's own alpha
       Scene scene(layers(view, count, true), plainMaterial(0, float(most)), view);
       scene.setLight(samples::kConditionLight, 1, 0);
-      std::vector<float> background(std::size_t(256 * 16 * 4), float(sun));
+      std::vector<float> background(std::size_t(256 * 4 * 4), float(sun));
       for (std::size_t i = 3; i < background.size(); i += 4) background[i] = below;
       reference::GatherOptions coded;
       coded.payload = reference::Payload::standard;
       const reference::FragmentLists lists = reference::gatherFragments(scene.reference_scene, scene.camera, coded);
       for (const MethodWay& way : kMethodWays) {
         if (way.method == FLK_METHOD_FORWARD) continue;
-        host().resize(256, 16);
+        host().resize(256, 4);
         host().setBackground(background);
         const std::vector<float> image = scene.render(frameOf(way, FLK_CAPTURE_RASTER));
         host().setBackground({});
@@ -325,7 +327,7 @@ TEST(Background, NoFringe) {
           // Where the device may choose the code beside, all layers would.
           if (nearTie(opacityAt(view, x, 0, double(float(most))), 1023)) continue;
           ++compared;
-          const std::size_t i = std::size_t(5 * 256 + x);
+          const std::size_t i = std::size_t(2 * 256 + x);
           const reference::Pixel& e = expected.pixels[i];
           for (std::size_t c = 0; c < 3; ++c)
             worst.see(255 * std::fabs(std::min(double(image[i * 4 + c]), 1.0) - std::min(e.rgb[c] + e.transmittance * sun, 1.0)));

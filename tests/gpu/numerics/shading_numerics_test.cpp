@@ -4,6 +4,8 @@
 #include "numerics_spv/numerics_shade.h"
 #include "numerics_spv/numerics_tangent.h"
 
+#include "forelock/asset.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -294,6 +296,34 @@ TEST(DegenerateTangent, ShadesDiffuseOnly) {
   record("G6", "the same, stored and read, method hard: not diffuse only", "0", std::to_string(wrong_hard));
   record("G6", "lengths of 1e-30 to 3e38 normalised: largest error, radian and length", "< 1e-6",
          format(direction_error.value()));
+}
+
+// The counter of G6: what has no direction is counted where it enters.
+TEST(DegenerateTangent, FindingsCountThem) {
+  const float tiny = kDenormal;
+  const std::vector<float> positions = {0, 0, 0, 0, 0, 0,                             // two strands of no length
+                                        1, 1, 1, 1, 1, 1,                             //
+                                        0, 0, 0, 0, 0, 0, 0.1f, 0, 0, 0.1f, 0, 0,     // a segment of none at either end
+                                        0, 0, 0, tiny, 0, 0, 0.1f, 0, 0, 0.2f, 0, 0,  // a denormal one
+                                        0, 0.1f, 0, 0.1f, 0.1f, 0};
+  const std::vector<uint32_t> first = {0, 2, 4, 8, 12, 14};
+  const std::vector<float> radii(14, 1e-4f);
+  FlkStrands strands{};
+  strands.type = FLK_TYPE_STRANDS;
+  strands.strand_count = 5, strands.vertex_count = 14;
+  strands.first_vertex = first.data(), strands.positions = positions.data(), strands.radii = radii.data();
+  FlkAsset asset = nullptr;
+  ASSERT_EQ(flkAssetCreate(&strands, nullptr, &asset), FLK_SUCCESS);
+  uint64_t dropped = 0, kept = 0;
+  FlkFinding finding{};
+  for (uint32_t i = 0; flkAssetGetFinding(asset, i, &finding) == FLK_SUCCESS; ++i) {
+    if (std::string(finding.code) == "STRAND_ZERO_LENGTH") dropped = finding.count;
+    if (std::string(finding.code) == "SEGMENT_ZERO_LENGTH") kept = finding.count;
+  }
+  flkAssetDestroy(asset);
+  EXPECT_EQ(dropped, 2u);
+  EXPECT_EQ(kept, 3u);
+  record("G6", "2 strands and 3 segments of no length, or a denormal one: findings count", "2, 3", std::to_string(dropped) + ", " + std::to_string(kept));
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ FLK_API void flkMaterialDefault(FlkMaterial* material);
 enum {
   FLK_HAIR_KEEP_ORDER = 1u,  /* draw strands in the asset's order, not shuffled */
   FLK_HAIR_IGNORE_COLORS = 2u, /* leave the asset's vertex colours out, and their memory */
-  FLK_HAIR_HOST_POSITIONS = 4u /* positions will come from flkHairSetPositions: 36 bytes more a strand */
+  FLK_HAIR_HOST_POSITIONS = 4u /* positions will come from flkHairSetPositions: 12 bytes more a vertex, 36 a strand */
 };
 
 /* A picture of the scalp: each strand's colours are multiplied by the pixel at its root's UV (docs/methods.md section 2). */
@@ -270,7 +270,7 @@ typedef struct FlkLight {
   uint32_t casts_shadow;   /* 1: hair attenuates it, through a shadow map of this view */
   uint32_t shadow_size;    /* texels a side, even [64, 8192]; optional: 0 is 1024. A point light amid hair has six maps */
   uint32_t kind;           /* FLK_LIGHT_...; optional: 0 is directional */
-  double position[3];      /* point, spot: world space */
+  double position[3];      /* point, spot: world space (metre), within 1e15 of the origin */
   float range;             /* point, spot: nothing arrives beyond (metre) >= 0; optional: 0 is no end */
   float source_radius;     /* point, spot: radiance is that of this distance for all that is nearer (metre); 0 is 1 mm */
   float inner_angle, outer_angle; /* spot: half angles of full light and of none (radian) 0 <= inner < outer <= pi / 2 */
@@ -361,7 +361,8 @@ typedef struct FlkFrame {
   uint32_t reversed_depth;   /* 1: near is depth 1 */
   uint32_t hair_count;       /* [0, 63] */
   const FlkHair* hairs;      /* in drawing order; each at most once */
-  uint32_t light_count;      /* [0, 4096], with at most 96 hair shadow maps of together maxImageDimension2D squared texels */
+  uint32_t light_count;      /* [0, 4096], with at most 96 hair shadow maps, which share one image (FLK_ERROR_LIMIT: they
+                                do not fit into maxImageDimension2D squared) */
   const FlkLight* lights;
   float ambient[3];          /* radiance from everywhere, >= 0 */
   float exposure;            /* FLK_METHOD_FORWARD with FLK_PAYLOAD_PAPER cuts colours at 1 / exposure; optional: 0 is 1 */

@@ -74,7 +74,7 @@ const char* lightFault(const FlkLight& light) {
     return "light.shadow_size must be even and lie in [64, 8192]";
   if (light.kind != FLK_LIGHT_DIRECTIONAL) {
     for (double c : light.position)
-      if (!std::isfinite(c)) return "light.position must be finite";
+      if (!(std::abs(c) <= 1e15)) return "light.position must lie within 1e15 of the origin";
     if (!within(light.range, 0, 1e30f)) return "light.range must be finite and not negative";
     if (!within(light.source_radius, 0, 1e15f)) return "light.source_radius must be finite and not negative";
   }

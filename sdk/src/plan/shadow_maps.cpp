@@ -10,6 +10,7 @@ constexpr double kMargin = 3;           // texels that taps may reach past the l
 constexpr double kSphereFits = 1.25;    // distance over radius from which one map sees the sphere
 constexpr double kWidestCone = 1.0471975511965976;  // 60 degrees
 constexpr double kNearShare = 1e-3;     // of the sphere's radius
+constexpr double kMostFocal = 1e15;     // texels: of a light so far or so narrow that it is a ray, to stay finite as float
 
 Sphere hairSphere(const HairFacts& hair) {
   const double scale = std::cbrt(std::abs(determinant3(hair.world_from_hair)));
@@ -56,7 +57,7 @@ ShadowFace coneFace(const Sphere& sphere, const Vec3& position, const Vec3& axis
   const double distance = length(sphere.center - position);
   ShadowFace face;
   face.map_from_world = fromWorld(axesAbout(axis), position, 1);
-  face.focal = (size * 0.5 - kMargin) / std::tan(half_angle);
+  face.focal = std::min((size * 0.5 - kMargin) / std::tan(half_angle), kMostFocal);
   face.texel = 1 / face.focal;
   face.range = distance + sphere.radius;
   face.near = std::max((distance - sphere.radius) * widest_cosine, kNearShare * sphere.radius);

@@ -212,11 +212,13 @@ TEST(Coverage, BoxesOfHardStrands) {
     for (int i = 0; i < 100; ++i) {
       // A third of them beside the joint, where the two meet.
       const double* around = i % 3 ? (i % 2 ? a : c) : b;
-      const double x = std::floor(around[0] + 24 * (uniform(random) - 0.5)) + 0.5, y = std::floor(around[1] + 24 * (uniform(random) - 0.5)) + 0.5;
+      const double x = std::floor(around[0] + 24 * (uniform(random) - 0.5)) + 0.5,
+                   y = std::floor(around[1] + 24 * (uniform(random) - 0.5)) + 0.5;
       add(in, {a[0], a[1], b[0], b[1], c[0], c[1], h, x, y});
       const Vec3 t{std::cos(heading), std::sin(heading), 0}, u{std::cos(heading + bend), std::sin(heading + bend), 0};
       const Vec3 from_a{x - a[0], y - a[1], 0}, from_b{x - b[0], y - b[1], 0};
-      points.push_back({cross(t, from_a).z, dot(from_a, t), l, cross(u, from_b).z, dot(from_b, u), std::max(h, 0.5), dot(from_b, sum(t, u))});
+      points.push_back({cross(t, from_a).z, dot(from_a, t), l, cross(u, from_b).z, dot(from_b, u), std::max(h, 0.5),
+                        dot(from_b, sum(t, u))});
     }
   }
   const std::vector<float> out = runItems(numerics_hard, in, 9, 3);
@@ -228,16 +230,20 @@ TEST(Coverage, BoxesOfHardStrands) {
     inside += out[i * 3 + 2] > 0;
     // 300 pixels from the middle fp32 steps are 3e-5.
     const double edge = std::min({std::fabs(std::fabs(p.x) - p.h), std::fabs(p.y), std::fabs(p.y - p.l)});
-    if (edge < 1e-3) ++near;
-    else wrong += (out[i * 3 + 2] > 0) != (std::fabs(p.x) <= p.h && p.y >= 0 && p.y < p.l);
-    const bool clear = p.h - std::fabs(p.x) > 1e-3 && p.h - std::fabs(p.x_next) > 1e-3 && p.y > 1e-3 && p.l - p.y_next > 1e-3;
+    if (edge < 1e-3)
+      ++near;
+    else
+      wrong += (out[i * 3 + 2] > 0) != (std::fabs(p.x) <= p.h && p.y >= 0 && p.y < p.l);
+    const bool clear =
+        p.h - std::fabs(p.x) > 1e-3 && p.h - std::fabs(p.x_next) > 1e-3 && p.y > 1e-3 && p.l - p.y_next > 1e-3;
     neither += clear && !(out[i * 3] > 0) && !(out[i * 3 + 1] > 0);
   }
   EXPECT_GT(inside, points.size() / 50);
   EXPECT_LT(near, points.size() / 100);
   EXPECT_EQ(wrong, 0u);
   EXPECT_EQ(both + neither, 0u);
-  record("coverage", "hard strands, 0.02 to 12 px, pixels in and around their boxes: not as the box has it", "0", std::to_string(wrong));
+  record("coverage", "hard strands, 0.02 to 12 px, pixels in and around their boxes: not as the box has it", "0",
+         std::to_string(wrong));
   record("coverage", "hard strands, bends to 120 degrees, pixels at the joint: in both segments, in neither", "0, 0",
          std::to_string(both) + ", " + std::to_string(neither));
 }

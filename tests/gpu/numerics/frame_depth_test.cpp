@@ -36,11 +36,16 @@ TEST(DepthOrder, HairAndHair) {
     StrandArrays strands;
     std::vector<bool> dark_first;
     for (int p = 0; p < 64; ++p) {
-      const double x = 0.013 + (p % 8 * 8 + 4.5 - kSize / 2) * pixel, y = -0.007 - (p / 8 * 8 + 4.5 - kSize / 2) * pixel;
+      const double x = 0.013 + (p % 8 * 8 + 4.5 - kSize / 2) * pixel,
+                   y = -0.007 - (p / 8 * 8 + 4.5 - kSize / 2) * pixel;
       // Up to half a pixel of depth, so that perspective does not move them, and fp32 rounds each elsewhere.
       const double z = 0.5 * pixel * uniform(random), step = random() % 2 ? kFibre : -kFibre;
-      strands.add({{float(x - 4 * pixel), float(y), float(z + step / 2)}, {float(x + 4 * pixel), float(y), float(z + step / 2)}}, float(4 * pixel));
-      strands.add({{float(x), float(y - 4 * pixel), float(z - step / 2)}, {float(x), float(y + 4 * pixel), float(z - step / 2)}}, float(4 * pixel));
+      strands.add({{float(x - 4 * pixel), float(y), float(z + step / 2)},
+                   {float(x + 4 * pixel), float(y), float(z + step / 2)}},
+                  float(4 * pixel));
+      strands.add({{float(x), float(y - 4 * pixel), float(z - step / 2)},
+                   {float(x), float(y + 4 * pixel), float(z - step / 2)}},
+                  float(4 * pixel));
       dark_first.push_back(step > 0);
     }
     for (const double far : kFar)
@@ -62,7 +67,10 @@ TEST(DepthOrder, HairAndHair) {
     enlist(counts, format(distance) + " m " + std::to_string(wrong));
   }
   EXPECT_EQ(wrong_within, 0u);
-  record("G12", "hair 70 um before hair, near 1e-2, far 1e2 to 1e8, standard and reversed, to 100 m: pairs in the wrong order, of " + std::to_string(pairs * 6 / 7),
+  record("G12",
+         "hair 70 um before hair, near 1e-2, far 1e2 to 1e8, standard and reversed, to 100 m: pairs in the wrong "
+         "order, of " +
+             std::to_string(pairs * 6 / 7),
          "0", std::to_string(wrong_within));
   record("G12", "the same at each distance", "reported", counts);
 }
@@ -83,12 +91,17 @@ float storedDepth(const float* clip, double depth, bool sixteen_bits) {
 StrandArrays leaningStrand(double distance) {
   const double s = 0.25 * distance;
   StrandArrays strands;
-  strands.add({{float(0.013 - 3 * s), float(-0.007 - 0.5 * s), float(-0.11 * s)}, {float(0.013 + 3 * s), float(-0.007 + 0.5 * s), float(0.13 * s)}}, float(2 * s));
+  strands.add({{float(0.013 - 3 * s), float(-0.007 - 0.5 * s), float(-0.11 * s)},
+               {float(0.013 + 3 * s), float(-0.007 + 0.5 * s), float(0.13 * s)}},
+              float(2 * s));
   return strands;
 }
 
 TEST(DepthOrder, HairAndTheHostsSurface) {
-  const DepthFormat formats[] = {{"D32, reversed", true, false}, {"D32, standard", false, false}, {"D16, reversed", true, true}, {"D16, standard", false, true}};
+  const DepthFormat formats[] = {{"D32, reversed", true, false},
+                                 {"D32, standard", false, false},
+                                 {"D16, reversed", true, true},
+                                 {"D16, standard", false, true}};
   for (const DepthFormat& format_of : formats) {
     std::string shares;
     std::size_t wrong_within = 0, within = 0;
@@ -104,7 +117,8 @@ TEST(DepthOrder, HairAndTheHostsSurface) {
         for (int y = 0; y < kSize; ++y)
           for (int x = 0; x < kSize; ++x) {
             const double side = (x + y) % 2 ? kFibre : -kFibre;
-            buffer[std::size_t(y * kSize + x)] = storedDepth(clip, lists.at(x, y)[0].depth + side, format_of.sixteen_bits);
+            buffer[std::size_t(y * kSize + x)] =
+                storedDepth(clip, lists.at(x, y)[0].depth + side, format_of.sixteen_bits);
           }
         host().resize(kSize, kSize);
         host().setDepth(buffer);
@@ -121,7 +135,9 @@ TEST(DepthOrder, HairAndTheHostsSurface) {
     }
     const bool held = format_of.reversed && !format_of.sixteen_bits;
     EXPECT_TRUE(!held || wrong_within == 0) << format_of.name;
-    record("G12", std::string("host's surface 70 um before or behind hair, ") + format_of.name + ", far 1e2 to 1e8, to 100 m: wrong pixels, of " + std::to_string(within),
+    record("G12",
+           std::string("host's surface 70 um before or behind hair, ") + format_of.name +
+               ", far 1e2 to 1e8, to 100 m: wrong pixels, of " + std::to_string(within),
            held ? "0" : "reported", std::to_string(wrong_within));
     record("G12", std::string("the same, ") + format_of.name + ", at each distance", "reported", shares);
   }
@@ -144,7 +160,8 @@ TEST(PositionFromDepth, WithinAQuarterOfAFibre) {
       const double* p = scene.camera.clip_from_view;
       std::vector<float> in;
       for (int i = 0; i < kSize * kSize; ++i)
-        add(in, {i % kSize + 0.5, i / kSize + 0.5, double(depth[std::size_t(i)]), p[0], p[5], p[8], p[9], kSize, kSize});
+        add(in,
+            {i % kSize + 0.5, i / kSize + 0.5, double(depth[std::size_t(i)]), p[0], p[5], p[8], p[9], kSize, kSize});
       const std::vector<float> out = runItems(numerics_position, in, 9, 3);
       ASSERT_EQ(out.size(), std::size_t(kSize * kSize * 3));
       for (int i = 0; i < kSize * kSize; ++i) {
@@ -158,7 +175,8 @@ TEST(PositionFromDepth, WithinAQuarterOfAFibre) {
     enlist(each, format(distance) + " m " + format(error.value()) + " um");
   }
   EXPECT_LT(within.value(), kFibre / 2 / 4 * 1e6);
-  record("G13", "position of a fragment from its stored depth, to 20 m: largest error", "< 8.75 um (a quarter of a fibre's radius)", format(within.value()) + " um");
+  record("G13", "position of a fragment from its stored depth, to 20 m: largest error",
+         "< 8.75 um (a quarter of a fibre's radius)", format(within.value()) + " um");
   record("G13", "the same at each distance", "reported", each);
 }
 
@@ -167,7 +185,8 @@ TEST(PositionFromDepth, FromTheHostsBuffer) {
   for (const bool reversed : {false, true}) {
     std::string each;
     for (const double distance : {2.0, 20.0, 200.0}) {
-      const reference::Camera camera = reference::makeCamera({0, 0, 1}, {0, 0, 0}, {0, 1, 0}, distantView(1, 1e4, reversed).projection, kSize, kSize);
+      const reference::Camera camera = reference::makeCamera({0, 0, 1}, {0, 0, 0}, {0, 1, 0},
+                                                             distantView(1, 1e4, reversed).projection, kSize, kSize);
       float clip[16];
       for (int i = 0; i < 16; ++i) clip[i] = float(camera.clip_from_view[i]);
       std::vector<float> in, depths;
@@ -181,7 +200,10 @@ TEST(PositionFromDepth, FromTheHostsBuffer) {
       for (std::size_t i = 0; i < out.size(); ++i) error.see(1e6 * std::fabs(double(out[i]) - double(depths[i])));
       enlist(each, format(distance) + " m " + format(error.value()) + " um");
     }
-    record("G13", std::string("depth of the host's surface from a D32 buffer, ") + (reversed ? "reversed" : "standard") + ", near 1e-2: largest error", "reported", each);
+    record("G13",
+           std::string("depth of the host's surface from a D32 buffer, ") + (reversed ? "reversed" : "standard") +
+               ", near 1e-2: largest error",
+           "reported", each);
   }
 }
 

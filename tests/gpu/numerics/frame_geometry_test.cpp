@@ -47,8 +47,8 @@ TEST(HugeWidth, EdgesOfAStrip) {
     EXPECT_LE(edge.value(), 0.01);
     // A pixel is in one of two segments that meet.
     EXPECT_LE(cost.value(), 1);
-    record("G9", std::string(way.name) + ": edges of straight strands, 2 to 200 px, 4 angles: largest error", "<= 0.01 px",
-           format(edge.value()) + " px");
+    record("G9", std::string(way.name) + ": edges of straight strands, 2 to 200 px, 4 angles: largest error",
+           "<= 0.01 px", format(edge.value()) + " px");
     record("G9", std::string(way.name) + ": the same: fragments per pixel drawn", "<= 1", format(cost.value()));
   }
 }
@@ -86,9 +86,15 @@ TEST(HugeWidth, NoGapAtJoints) {
         }
     EXPECT_GT(whole, 20000u);
     EXPECT_EQ(gaps, 0u);
-    record("G9", std::string(way.name) + ": zig-zags of 8 to 60 px, bends to 90 degrees, segments of two widths: pixels wholly covered, short of 1 by a code",
+    record("G9",
+           std::string(way.name) +
+               ": zig-zags of 8 to 60 px, bends to 90 degrees, segments of two widths: pixels wholly covered, short of "
+               "1 by a code",
            "0", std::to_string(gaps));
-    record("G9", std::string(way.name) + ": the same, segments of a quarter width (opacity shared out, methods.md section 2): share of pixels, most missing",
+    record("G9",
+           std::string(way.name) +
+               ": the same, segments of a quarter width (opacity shared out, methods.md section 2): share of pixels, "
+               "most missing",
            "reported", format(100.0 * double(short_gaps) / double(short_whole)) + " %, " + format(lost));
   }
 }
@@ -102,7 +108,8 @@ TEST(HugeWidth, WiderThanTheScreen) {
       for (const double angle : {0.0, 0.5, 1.3}) {
         const double dx = 300 * std::cos(angle), dy = 300 * std::sin(angle);
         StrandArrays strands;
-        strands.add({flatPoint(view, 64 - dx, 48 - dy), flatPoint(view, 64 + dx / 50, 48 + dy / 50), flatPoint(view, 64 + dx, 48 + dy)},
+        strands.add({flatPoint(view, 64 - dx, 48 - dy), flatPoint(view, 64 + dx / 50, 48 + dy / 50),
+                     flatPoint(view, 64 + dx, 48 + dy)},
                     float(width / 2 / view.height));
         Scene scene(strands, plainMaterial(1, 1), view);
         FlkFrame frame{};
@@ -114,8 +121,10 @@ TEST(HugeWidth, WiderThanTheScreen) {
     EXPECT_EQ(open, 0u);
     EXPECT_LE(cost, 1);
     record("G9", std::string(way.name) + ": strands of 300 to 1e4 px: pixels not opaque", "0", std::to_string(open));
-    record("G9", std::string(way.name) + ": strands of 1e6 px (a rasteriser clips them to its own reach): pixels not opaque, of 36864", "reported",
-           std::to_string(open_at_most));
+    record("G9",
+           std::string(way.name) +
+               ": strands of 1e6 px (a rasteriser clips them to its own reach): pixels not opaque, of 36864",
+           "reported", std::to_string(open_at_most));
     record("G9", std::string(way.name) + ": both: fragments per pixel of the screen", "<= 1", format(cost));
   }
 }
@@ -135,8 +144,10 @@ TEST(HugeWidth, ManyScreensFull) {
       least = std::min(least, scene.statistics.fragments);
       const bool limited = count == 80 && way.capture == FLK_CAPTURE_COMPUTE && loopsAreLimited();
       EXPECT_TRUE(limited || lost == 0) << lost;
-      record("G9", std::string(way.name) + ": " + std::to_string(count) + " strands that fill 256 x 256 pixels: fragments lost",
-             limited ? "0: **not held**, this driver ends loops after 65,535 rounds" : "0", std::to_string(lost));
+      record(
+          "G9",
+          std::string(way.name) + ": " + std::to_string(count) + " strands that fill 256 x 256 pixels: fragments lost",
+          limited ? "0: **not held**, this driver ends loops after 65,535 rounds" : "0", std::to_string(lost));
     }
   }
   EXPECT_GT(least, 0u);
@@ -148,17 +159,18 @@ StrandArrays hairAroundTheEye(uint32_t seed) {
   std::uniform_real_distribution<float> uniform(-0.3f, 0.3f);
   StrandArrays strands;
   for (int i = 0; i < 120; ++i) {
-    const std::array<float, 3> a{uniform(random), uniform(random), uniform(random)}, c{uniform(random), uniform(random), uniform(random)};
+    const std::array<float, 3> a{uniform(random), uniform(random), uniform(random)},
+        c{uniform(random), uniform(random), uniform(random)};
     std::array<float, 3> b{uniform(random), uniform(random), uniform(random)};
-    if (i % 10 == 1) b = {0, 0, 0};            // a vertex in the eye
-    if (i % 10 == 3) b[2] = 0;                 // w = 0
-    if (i % 10 == 5) b[2] = -0.01f;            // on the near plane
+    if (i % 10 == 1) b = {0, 0, 0};  // a vertex in the eye
+    if (i % 10 == 3) b[2] = 0;       // w = 0
+    if (i % 10 == 5) b[2] = -0.01f;  // on the near plane
     if (i % 10 == 7) b[2] = -1e-30f;
     strands.add({a, b, c}, i % 2 ? 1e-3f : 1e-4f);
   }
-  strands.add({{0.1f, 0.1f, 0.01f}, {-0.1f, 0.1f, 0.3f}}, 1e-3f);      // wholly behind
-  strands.add({{0, 0, 0}, {0, 0, -0.3f}}, 1e-3f);                      // from the eye along the axis
-  strands.add({{-0.2f, 0, 0}, {0.2f, 0, 0}}, 1e-3f);                   // through the eye, across
+  strands.add({{0.1f, 0.1f, 0.01f}, {-0.1f, 0.1f, 0.3f}}, 1e-3f);  // wholly behind
+  strands.add({{0, 0, 0}, {0, 0, -0.3f}}, 1e-3f);                  // from the eye along the axis
+  strands.add({{-0.2f, 0, 0}, {0.2f, 0, 0}}, 1e-3f);               // through the eye, across
   return strands;
 }
 
@@ -180,14 +192,17 @@ std::vector<bool> silhouette(const StrandArrays& strands, const ViewSpec& view) 
       double x[2], y[2], h[2];
       for (int e = 0; e < 2; ++e) {
         const double d = -end[e].z;
-        x[e] = view.width / 2.0 + scale * end[e].x / d, y[e] = view.height / 2.0 - scale * end[e].y / d, h[e] = scale * double(strands.radii[v]) / d;
+        x[e] = view.width / 2.0 + scale * end[e].x / d, y[e] = view.height / 2.0 - scale * end[e].y / d,
+        h[e] = scale * double(strands.radii[v]) / d;
       }
       const double dx = x[1] - x[0], dy = y[1] - y[0], square = dx * dx + dy * dy;
       for (int row = 0; row < view.height; ++row)
         for (int column = 0; column < view.width; ++column) {
-          const double px = column + 0.5 - x[0], py = row + 0.5 - y[0], u = square > 0 ? std::clamp((px * dx + py * dy) / square, 0.0, 1.0) : 0;
+          const double px = column + 0.5 - x[0], py = row + 0.5 - y[0],
+                       u = square > 0 ? std::clamp((px * dx + py * dy) / square, 0.0, 1.0) : 0;
           // To the pixel's corner, and one pixel.
-          if (std::hypot(px - u * dx, py - u * dy) <= h[0] + (h[1] - h[0]) * u + std::numbers::sqrt2 / 2 + 1) inside[std::size_t(row * view.width + column)] = true;
+          if (std::hypot(px - u * dx, py - u * dy) <= h[0] + (h[1] - h[0]) * u + std::numbers::sqrt2 / 2 + 1)
+            inside[std::size_t(row * view.width + column)] = true;
         }
     }
   return inside;
@@ -219,13 +234,17 @@ TEST(NearPlane, OnlyTheSilhouette) {
           squares += std::pow(255 * (a - truth[i]), 2), ++pixels;
           bool near = within[i];  // or at the point of a mitre, which the reference has too
           for (int v = std::max(y - 1, 0); v <= std::min(y + 1, view.height - 1); ++v)
-            for (int u = std::max(x - 1, 0); u <= std::min(x + 1, view.width - 1); ++u) near = near || !lists.at(u, v).empty();
+            for (int u = std::max(x - 1, 0); u <= std::min(x + 1, view.width - 1); ++u)
+              near = near || !lists.at(u, v).empty();
           outside += a > 0 && !near;
         }
     }
     EXPECT_EQ(outside, 0u);
     EXPECT_EQ(broken, 0u);
-    record("G10", std::string(way.name) + ": eye amid strands (across the near plane, behind, through the eye): pixels beyond the strands' silhouette + 1 px",
+    record("G10",
+           std::string(way.name) +
+               ": eye amid strands (across the near plane, behind, through the eye): pixels beyond the strands' "
+               "silhouette + 1 px",
            "0", std::to_string(outside));
     record("G10", std::string(way.name) + ": the same: NaN or infinite", "0", std::to_string(broken));
     record("G10", std::string(way.name) + ": the same: opacity against the clipped reference, rms", "reported",
@@ -272,10 +291,15 @@ TEST(EdgeOn, NoLargerThanWhatIsThere) {
     EXPECT_LE(area.value(), 1);
     EXPECT_LE(quads.value(), 1);
     EXPECT_EQ(broken, 0u);
-    record("G11", std::string(way.name) + ": strands along the view axis and along rays, from the eye, from before the near plane, tilts 0 to 0.1: NaN or infinite",
+    record("G11",
+           std::string(way.name) +
+               ": strands along the view axis and along rays, from the eye, from before the near plane, tilts 0 to "
+               "0.1: NaN or infinite",
            "0", std::to_string(broken));
-    record("G11", std::string(way.name) + ": the same: area over that of its discs (end and side)", "<= 1", format(area.value()));
-    record("G11", std::string(way.name) + ": the same: fragments over those of a quad around it, 2 px of margin", "<= 1", format(quads.value()));
+    record("G11", std::string(way.name) + ": the same: area over that of its discs (end and side)", "<= 1",
+           format(area.value()));
+    record("G11", std::string(way.name) + ": the same: fragments over those of a quad around it, 2 px of margin",
+           "<= 1", format(quads.value()));
   }
 }
 

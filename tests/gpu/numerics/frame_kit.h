@@ -27,9 +27,12 @@ struct MethodWay {
 // The first four give the same bits whatever the order of arrival.
 inline constexpr MethodWay kMethodWays[] = {
     {"exact", FLK_METHOD_EXACT, FLK_TAIL_DEFAULT, reference::Method::exact, reference::TailOrder::list},
-    {"core_tail", FLK_METHOD_CORE_TAIL, FLK_TAIL_DETERMINISTIC, reference::Method::core_tail, reference::TailOrder::deterministic},
-    {"core_only", FLK_METHOD_CORE_ONLY, FLK_TAIL_DETERMINISTIC, reference::Method::core_only, reference::TailOrder::deterministic},
-    {"all_low", FLK_METHOD_ALL_LOW, FLK_TAIL_DETERMINISTIC, reference::Method::all_low, reference::TailOrder::deterministic},
+    {"core_tail", FLK_METHOD_CORE_TAIL, FLK_TAIL_DETERMINISTIC, reference::Method::core_tail,
+     reference::TailOrder::deterministic},
+    {"core_only", FLK_METHOD_CORE_ONLY, FLK_TAIL_DETERMINISTIC, reference::Method::core_only,
+     reference::TailOrder::deterministic},
+    {"all_low", FLK_METHOD_ALL_LOW, FLK_TAIL_DETERMINISTIC, reference::Method::all_low,
+     reference::TailOrder::deterministic},
     {"core_tail, list", FLK_METHOD_CORE_TAIL, FLK_TAIL_LIST, reference::Method::core_tail, reference::TailOrder::list},
     {"forward", FLK_METHOD_FORWARD, FLK_TAIL_DEFAULT, reference::Method::forward, reference::TailOrder::list}};
 inline constexpr std::size_t kDeterministic = 4;
@@ -82,13 +85,17 @@ inline StrandArrays layers(const ViewSpec& view, uint32_t count, bool upright, u
     // Ends at random distances: what fraction of the strand a pixel sees differs from layer to layer.
     const double angle = 2 * std::numbers::pi * uniform(random), dx = w * std::cos(angle), dy = w * std::sin(angle);
     const double before = 1.5 + 2 * uniform(random), after = 1.5 + 2 * uniform(random);
-    strands.add({flatPoint(view, w / 2 - before * dx, h / 2 - before * dy, z), flatPoint(view, w / 2 + after * dx, h / 2 + after * dy, z)}, 4);
+    strands.add({flatPoint(view, w / 2 - before * dx, h / 2 - before * dy, z),
+                 flatPoint(view, w / 2 + after * dx, h / 2 + after * dy, z)},
+                4);
   }
   return strands;
 }
 
 // A code of section 3 with that many steps, as the device would round it.
-inline double rootCoded(double alpha, double steps) { return std::pow(std::floor(std::sqrt(alpha) * steps + 0.5) / steps, 2); }
+inline double rootCoded(double alpha, double steps) {
+  return std::pow(std::floor(std::sqrt(alpha) * steps + 0.5) / steps, 2);
+}
 // Whether rounding in fp32 may choose the code beside.
 inline bool nearTie(double alpha, double steps) {
   const double q = std::sqrt(alpha) * steps;

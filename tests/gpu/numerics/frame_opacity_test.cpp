@@ -10,7 +10,9 @@ namespace forelock::test {
 namespace {
 
 // One row of the picture has every opacity between root and tip.
-double opacityAt(const ViewSpec& view, int x, double root, double tip) { return root + (tip - root) * (x + 2.5) / (view.width + 4); }
+double opacityAt(const ViewSpec& view, int x, double root, double tip) {
+  return root + (tip - root) * (x + 2.5) / (view.width + 4);
+}
 
 TEST(AlphaCull, OpacityLost) {
   const ViewSpec view = flatView(128, 8);
@@ -30,7 +32,9 @@ TEST(AlphaCull, OpacityLost) {
       }
       const bool held = !paper && count <= 100;
       EXPECT_TRUE(!held || lost < 0.01) << lost;
-      record("G14", std::string(paper ? "paper" : "default") + " coding, " + std::to_string(count) + " layers of opacity 0 to 0.03: most opacity lost, mean",
+      record("G14",
+             std::string(paper ? "paper" : "default") + " coding, " + std::to_string(count) +
+                 " layers of opacity 0 to 0.03: most opacity lost, mean",
              held ? "< 1 %" : "reported", format(100 * lost) + " %, " + format(100 * mean / pixels) + " %");
     }
 }
@@ -42,7 +46,8 @@ TEST(OpacityRange, TheApiRefusesAndModifiersClamp) {
   scene.setLight(samples::kConditionLight, 1, 0);
   const std::vector<float> before = scene.render();
   std::size_t accepted = 0, changed = 0;
-  for (const float v : {1.5f, -0.1f, kNan, kInf, -kInf, std::nextafter(1.0f, 2.0f), -std::numeric_limits<float>::denorm_min()})
+  for (const float v :
+       {1.5f, -0.1f, kNan, kInf, -kInf, std::nextafter(1.0f, 2.0f), -std::numeric_limits<float>::denorm_min()})
     for (const bool root : {false, true}) {
       FlkMaterial m = scene.material;
       (root ? m.opacity_root : m.opacity_tip) = v;
@@ -71,7 +76,8 @@ TEST(OpacityRange, TheApiRefusesAndModifiersClamp) {
   const std::vector<float> none = with(fade);
   off += std::any_of(none.begin(), none.end(), [](float v) { return v != 0; });
   EXPECT_EQ(off, 0u);
-  record("G15", "modifiers that would be thousands, 1, negative: pictures not bit-equal to those of 1, 1, 0", "0", std::to_string(off));
+  record("G15", "modifiers that would be thousands, 1, negative: pictures not bit-equal to those of 1, 1, 0", "0",
+         std::to_string(off));
   std::size_t taken = 0;
   for (const float v : {-0.1f, 1.1f, kNan, kInf}) {
     FlkOpacityModifier m = lens;
@@ -113,7 +119,8 @@ TEST(OpacityRange, OneAndNone) {
       }
       // Forty faint layers before an opaque one, which is in the tail of all that have one; unlit, before a sun.
       StrandArrays strands = layers(view, 40, true);
-      strands.add({flatPoint(view, -2, 16, -0.9), flatPoint(view, 1e4, 16, -0.9)}, 2);  // of which the picture sees the root
+      strands.add({flatPoint(view, -2, 16, -0.9), flatPoint(view, 1e4, 16, -0.9)},
+                  2);  // of which the picture sees the root
       FlkMaterial m = plainMaterial(1, 0);
       for (std::size_t s = 0; s < 40; ++s)
         strands.positions[s * 6] = flatPoint(view, -1e5, 0, 0)[0];  // and of these nearly the tip
@@ -128,9 +135,11 @@ TEST(OpacityRange, OneAndNone) {
   EXPECT_EQ(open, 0u);
   EXPECT_EQ(drawn, 0u);
   EXPECT_LE(through.value(), 1);
-  record("G15", "opacity 1, every method: pixels not opaque, or with a transmittance output other than 0", "0", std::to_string(open));
+  record("G15", "opacity 1, every method: pixels not opaque, or with a transmittance output other than 0", "0",
+         std::to_string(open));
   record("G15", "opacity 0, every method: pictures with anything in them", "0", std::to_string(drawn));
-  record("G15", "opacity 1 behind 40 faint layers, every method: what a background of 1e4 adds", "<= 1 code", format(through.value()) + " codes");
+  record("G15", "opacity 1 behind 40 faint layers, every method: what a background of 1e4 adds", "<= 1 code",
+         format(through.value()) + " codes");
 }
 
 // As many layers as leave a quarter of the light, all of one opacity.
@@ -164,10 +173,13 @@ TEST(Layers, NoneIgnored) {
     EXPECT_LE(few.value(), 1) << way.name;
     const bool limited = way.method == FLK_METHOD_EXACT && loopsAreLimited();
     EXPECT_TRUE(limited || many.value() <= 1) << way.name << " " << many.value();
-    record("G16", std::string(way.name) + ", 1, 8, 9, 100, 500, 513, 1200 layers: opacity against float64, most", "<= 1 code", format(few.value()) + " codes");
+    record("G16", std::string(way.name) + ", 1, 8, 9, 100, 500, 513, 1200 layers: opacity against float64, most",
+           "<= 1 code", format(few.value()) + " codes");
     record("G16", std::string(way.name) + ", 5000 layers: the same",
-           limited ? "<= 1 code: **not held**, this driver ends loops after 65,535 rounds" : "<= 1 code", format(many.value()) + " codes");
-    record("G16", std::string(way.name) + ", all of these: codes of opacity; rmse of colour against exact in float64", "reported", each + "; " + rmse);
+           limited ? "<= 1 code: **not held**, this driver ends loops after 65,535 rounds" : "<= 1 code",
+           format(many.value()) + " codes");
+    record("G16", std::string(way.name) + ", all of these: codes of opacity; rmse of colour against exact in float64",
+           "reported", each + "; " + rmse);
   }
 }
 
@@ -224,19 +236,22 @@ TEST(Overflow, SilhouetteAndStoredNodes) {
       const std::vector<float> image = host().readColor();
       uint64_t stored = 0;
       const double through = std::log(1 - rootCoded(double(0.1f), 1023));
-      for (std::size_t i = 3; i < image.size(); i += 4) stored += uint64_t(std::lround(std::log(1 - double(image[i])) / through));
+      for (std::size_t i = 3; i < image.size(); i += 4)
+        stored += uint64_t(std::lround(std::log(1 - double(image[i])) / through));
       stored_wrong += stored != nodes;
     }
   EXPECT_EQ(stored_wrong, 0u);
   EXPECT_EQ(flag_wrong, 0u);
-  record("G17", "lists of 1 fragment, 10 %, 99 %, the rest dropped: pictures that do not hold just as many fragments", "0", std::to_string(stored_wrong));
+  record("G17", "lists of 1 fragment, 10 %, 99 %, the rest dropped: pictures that do not hold just as many fragments",
+         "0", std::to_string(stored_wrong));
   record("G17", "the same: overflow_fragments not exact", "0", std::to_string(flag_wrong));
 
   StrandArrays strands;
   std::mt19937 random(2);
   std::uniform_real_distribution<double> place(8, 56);
   for (int i = 0; i < 150; ++i)
-    strands.add({flatPoint(view, place(random), place(random), place(random) / 200), flatPoint(view, place(random), place(random), place(random) / 200)},
+    strands.add({flatPoint(view, place(random), place(random), place(random) / 200),
+                 flatPoint(view, place(random), place(random), place(random) / 200)},
                 i % 2 ? 0.02f : 0.003f);
   Scene scene(strands, plainMaterial(0.6f, 0.1f), view);
   scene.setLight(samples::kConditionLight, 1, 0);
@@ -263,9 +278,12 @@ TEST(Overflow, SilhouetteAndStoredNodes) {
     }
     EXPECT_EQ(outline + broken, 0u) << way.name;
     // An aggregate keeps the opacity before it is coded, of 10 or 9 bits a fragment, and about 20 a pixel.
-    record("G17", std::string(way.name) + ", lists of 1 fragment, 10 %, 99 %, the rest summed up: pixels of the silhouette lost or gained, NaN", "0, 0",
-           std::to_string(outline) + ", " + std::to_string(broken));
-    record("G17", std::string(way.name) + ", the same: opacity against that of lists that suffice", "reported", format(opacity.value()) + " codes");
+    record("G17",
+           std::string(way.name) +
+               ", lists of 1 fragment, 10 %, 99 %, the rest summed up: pixels of the silhouette lost or gained, NaN",
+           "0, 0", std::to_string(outline) + ", " + std::to_string(broken));
+    record("G17", std::string(way.name) + ", the same: opacity against that of lists that suffice", "reported",
+           format(opacity.value()) + " codes");
   }
 }
 
@@ -291,7 +309,10 @@ TEST(Blend, RoundOff) {
           worst.see(codes), squares += codes * codes;
         }
       EXPECT_LE(worst.value(), 0.5) << way.name;
-      record("G21", std::string(way.name) + ", 500 layers of opacity " + format(double(low)) + " to " + format(double(high)) + ", RGBA16F: most, rms", "<= 0.5 codes",
+      record("G21",
+             std::string(way.name) + ", 500 layers of opacity " + format(double(low)) + " to " + format(double(high)) +
+                 ", RGBA16F: most, rms",
+             "<= 0.5 codes",
              format(worst.value()) + ", " + format(std::sqrt(squares / double(actual.pixels.size() * 3))) + " codes");
     }
   }
@@ -330,13 +351,17 @@ TEST(Background, NoFringe) {
           const std::size_t i = std::size_t(2 * 256 + x);
           const reference::Pixel& e = expected.pixels[i];
           for (std::size_t c = 0; c < 3; ++c)
-            worst.see(255 * std::fabs(std::min(double(image[i * 4 + c]), 1.0) - std::min(e.rgb[c] + e.transmittance * sun, 1.0)));
-          worst.see(255 * std::fabs(double(image[i * 4 + 3]) - (1 - e.transmittance + e.transmittance * double(below))));
+            worst.see(255 * std::fabs(std::min(double(image[i * 4 + c]), 1.0) -
+                                      std::min(e.rgb[c] + e.transmittance * sun, 1.0)));
+          worst.see(255 *
+                    std::fabs(double(image[i * 4 + 3]) - (1 - e.transmittance + e.transmittance * double(below))));
         }
         EXPECT_GT(compared, 240);
         EXPECT_LE(worst.value(), 1) << way.name << " " << count;
         if (below == 1)
-          record("G22", std::string(way.name) + ", " + std::to_string(count) + " layers, T from 1 to 1e-7 before 1e4: most", "<= 1 code", format(worst.value()) + " codes");
+          record("G22",
+                 std::string(way.name) + ", " + std::to_string(count) + " layers, T from 1 to 1e-7 before 1e4: most",
+                 "<= 1 code", format(worst.value()) + " codes");
       }
     }
   }

@@ -287,8 +287,8 @@ TEST(SharedExponent, RoundTripAndHostile) {
   }
   // Half a step of 1/256 or less of the largest channel.
   EXPECT_LE(error.value(), 1.0 / 512);
-  record("other", "colour of nine bits and a shared exponent: largest error, share of the largest channel",
-         "<= 1/512", "1/" + format(1 / error.value()));
+  record("other", "colour of nine bits and a shared exponent: largest error, share of the largest channel", "<= 1/512",
+         "1/" + format(1 / error.value()));
   EXPECT_EQ(against_twin.value(), 0);
   record("other", "the same against its twin", "0", format(against_twin.value()));
 

@@ -10,14 +10,16 @@
 namespace forelock::test {
 namespace {
 
-#define NUMERICS_FUNCTIONS(X)                                                                                          \
-  X(vkCreateImage) X(vkDestroyImage) X(vkCreateImageView) X(vkDestroyImageView) X(vkGetImageMemoryRequirements)        \
-  X(vkBindImageMemory) X(vkCreateBuffer) X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory)     \
-  X(vkAllocateMemory) X(vkFreeMemory) X(vkMapMemory) X(vkCmdPipelineBarrier2) X(vkCmdCopyBufferToImage)                \
-  X(vkCreateShaderModule) X(vkDestroyShaderModule) X(vkCreateDescriptorSetLayout) X(vkDestroyDescriptorSetLayout)      \
-  X(vkCreatePipelineLayout) X(vkDestroyPipelineLayout) X(vkCreateComputePipelines) X(vkDestroyPipeline)                \
-  X(vkCreateDescriptorPool) X(vkDestroyDescriptorPool) X(vkAllocateDescriptorSets) X(vkUpdateDescriptorSets)           \
-  X(vkCmdBindPipeline) X(vkCmdBindDescriptorSets) X(vkCmdPushConstants) X(vkCmdDispatch)
+#define NUMERICS_FUNCTIONS(X)                                                                                         \
+  X(vkCreateImage)                                                                                                    \
+  X(vkDestroyImage) X(vkCreateImageView) X(vkDestroyImageView) X(vkGetImageMemoryRequirements) X(vkBindImageMemory)   \
+      X(vkCreateBuffer) X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) X(vkAllocateMemory) \
+          X(vkFreeMemory) X(vkMapMemory) X(vkCmdPipelineBarrier2) X(vkCmdCopyBufferToImage) X(vkCreateShaderModule)   \
+              X(vkDestroyShaderModule) X(vkCreateDescriptorSetLayout) X(vkDestroyDescriptorSetLayout)                 \
+                  X(vkCreatePipelineLayout) X(vkDestroyPipelineLayout) X(vkCreateComputePipelines)                    \
+                      X(vkDestroyPipeline) X(vkCreateDescriptorPool) X(vkDestroyDescriptorPool)                       \
+                          X(vkAllocateDescriptorSets) X(vkUpdateDescriptorSets) X(vkCmdBindPipeline)                  \
+                              X(vkCmdBindDescriptorSets) X(vkCmdPushConstants) X(vkCmdDispatch)
 
 #define NUMERICS_DECLARE(f) PFN_##f f = nullptr;
 struct Functions {
@@ -66,8 +68,7 @@ Device::Device() {
       shared.physical_device, &memory);
 }
 
-VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements,
-                                             VkMemoryPropertyFlags flags) const {
+VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags flags) const {
   auto info = make<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
   info.allocationSize = requirements.size;
   for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
@@ -125,8 +126,8 @@ void Device::uploadMap(VkCommandBuffer cmd, VkImage image, VkBuffer from, uint32
 
 }  // namespace
 
-std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const float> words, uint32_t in_stride, uint32_t out_stride,
-                            const DepthMap* map, std::span<const Constant> constants) try {
+std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const float> words, uint32_t in_stride,
+                            uint32_t out_stride, const DepthMap* map, std::span<const Constant> constants) try {
   static const Device i;
   const Functions& fn = i.fn;
   const uint32_t items = uint32_t(words.size() / in_stride);
@@ -193,7 +194,8 @@ std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const flo
     const auto offset = uint32_t(entries.size() * sizeof(Constant) + offsetof(Constant, value));
     entries.push_back({constant.id, offset, sizeof constant.value});
   }
-  const VkSpecializationInfo specialization{uint32_t(entries.size()), entries.data(), constants.size_bytes(), constants.data()};
+  const VkSpecializationInfo specialization{uint32_t(entries.size()), entries.data(), constants.size_bytes(),
+                                            constants.data()};
   pipeline_info.stage.pSpecializationInfo = &specialization;
   pipeline_info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;

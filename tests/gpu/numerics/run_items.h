@@ -20,7 +20,8 @@ struct Constant {
 };
 
 // words.size() / in_stride items; returns out_stride floats for each. Empty, with a failed expectation, where Vulkan fails.
-std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const float> words, uint32_t in_stride, uint32_t out_stride,
-                            const DepthMap* map = nullptr, std::span<const Constant> constants = {});
+std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const float> words, uint32_t in_stride,
+                            uint32_t out_stride, const DepthMap* map = nullptr,
+                            std::span<const Constant> constants = {});
 
 }  // namespace forelock::test

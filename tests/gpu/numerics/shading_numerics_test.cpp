@@ -301,11 +301,12 @@ TEST(DegenerateTangent, ShadesDiffuseOnly) {
 // The counter of G6: what has no direction is counted where it enters.
 TEST(DegenerateTangent, FindingsCountThem) {
   const float tiny = kDenormal;
-  const std::vector<float> positions = {0, 0, 0, 0, 0, 0,                             // two strands of no length
-                                        1, 1, 1, 1, 1, 1,                             //
-                                        0, 0, 0, 0, 0, 0, 0.1f, 0, 0, 0.1f, 0, 0,     // a segment of none at either end
-                                        0, 0, 0, tiny, 0, 0, 0.1f, 0, 0, 0.2f, 0, 0,  // a denormal one
-                                        0, 0.1f, 0, 0.1f, 0.1f, 0};
+  const std::vector<float> positions = {
+      0, 0,    0, 0,    0,    0,                          // two strands of no length
+      1, 1,    1, 1,    1,    1,                          //
+      0, 0,    0, 0,    0,    0, 0.1f, 0, 0, 0.1f, 0, 0,  // a segment of none at either end
+      0, 0,    0, tiny, 0,    0, 0.1f, 0, 0, 0.2f, 0, 0,  // a denormal one
+      0, 0.1f, 0, 0.1f, 0.1f, 0};
   const std::vector<uint32_t> first = {0, 2, 4, 8, 12, 14};
   const std::vector<float> radii(14, 1e-4f);
   FlkStrands strands{};
@@ -323,7 +324,8 @@ TEST(DegenerateTangent, FindingsCountThem) {
   flkAssetDestroy(asset);
   EXPECT_EQ(dropped, 2u);
   EXPECT_EQ(kept, 3u);
-  record("G6", "2 strands and 3 segments of no length, or a denormal one: findings count", "2, 3", std::to_string(dropped) + ", " + std::to_string(kept));
+  record("G6", "2 strands and 3 segments of no length, or a denormal one: findings count", "2, 3",
+         std::to_string(dropped) + ", " + std::to_string(kept));
 }
 
 }  // namespace

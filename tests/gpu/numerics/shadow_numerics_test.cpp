@@ -213,11 +213,10 @@ TEST(ShadowRange, MapEdge) {
   record("G2", "map edge, caster up to it, receiver at its depth: step", "< 2 codes",
          format(std::max(at_caster.first, at_caster.second)));
   EXPECT_GT(behind_border.second, 250);  // else the sweep misses the edge
-  record(
-      "G2",
-      "map edge, caster up to it, receiver 93 fibres behind (none crosses it: the map holds all hair): step of 25"
-      " taps, of one",
-      "reported", format(behind_border.first) + ", " + format(behind_border.second) + " codes");
+  record("G2",
+         "map edge, caster up to it, receiver 93 fibres behind (none crosses it: the map holds all hair): step of 25"
+         " taps, of one",
+         "reported", format(behind_border.first) + ", " + format(behind_border.second) + " codes");
 }
 
 // Maps of several lights are rectangles of one image: what lies beside one never shows in it.
@@ -232,7 +231,8 @@ TEST(ShadowRange, MapInAnAtlas) {
   std::vector<Query> queries;
   for (double x = -6.3; x < 40; x += 0.9)
     for (double y = -6.1; y < 40; y += 0.9) queries.push_back({{x, y, 0.11}});
-  for (const double far : {-1e30, 1e30, double(kInf)}) queries.push_back({{far, 5, 0.11}}), queries.push_back({{5, far, 0.11}});
+  for (const double far : {-1e30, 1e30, double(kInf)})
+    queries.push_back({{far, 5, 0.11}}), queries.push_back({{5, far, 0.11}});
   const std::vector<Answer> expected = ask(queries, alone);
   for (Query& q : queries) q.corner[0] = left, q.corner[1] = top, q.size = size;
   const std::vector<Answer> actual = ask(queries, atlas);

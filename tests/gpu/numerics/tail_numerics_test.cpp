@@ -37,7 +37,8 @@ std::vector<TailAnswer> tails(const std::vector<TailList>& lists, float range, C
   }
   const std::vector<float> out = runItems(numerics_tail, in, kIn, 4, nullptr, {&kind, 1});
   std::vector<TailAnswer> answers(out.size() / 4);
-  for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = {{out[i * 4], out[i * 4 + 1], out[i * 4 + 2]}, out[i * 4 + 3]};
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    answers[i] = {{out[i * 4], out[i * 4 + 1], out[i * 4 + 2]}, out[i * 4 + 3]};
   return answers;
 }
 
@@ -68,7 +69,8 @@ TEST(DeterministicTail, SumsAgainstLongDouble) {
     TailList list;
     for (uint32_t k = 0; k < count; ++k) {
       const double even = -std::expm1(-depth / count);
-      list.push_back({{uniform(random), uniform(random), uniform(random)}, float(i % 2 ? even : even * 2 * double(uniform(random)))});
+      list.push_back({{uniform(random), uniform(random), uniform(random)},
+                      float(i % 2 ? even : even * 2 * double(uniform(random)))});
     }
     lists.push_back(list);
   }
@@ -87,8 +89,10 @@ TEST(DeterministicTail, SumsAgainstLongDouble) {
   for (int turn = 0; turn < 6; ++turn) {
     std::vector<TailList> permuted = lists;
     for (TailList& list : permuted) {
-      if (turn == 0) std::reverse(list.begin(), list.end());
-      else std::shuffle(list.begin(), list.end(), random);
+      if (turn == 0)
+        std::reverse(list.begin(), list.end());
+      else
+        std::shuffle(list.begin(), list.end(), random);
     }
     const std::vector<TailAnswer> again = tails(permuted, 1, kMean);
     ASSERT_EQ(again.size(), out.size());
@@ -99,8 +103,9 @@ TEST(DeterministicTail, SumsAgainstLongDouble) {
   EXPECT_LE(color.value(), 0.5);
   EXPECT_EQ(spread, 0u);
   EXPECT_EQ(unequal, 0u);
-  record("G20", "sums of the deterministic tail, up to 500 fragments, T from 0.4 to 1e-6, against long double: |dT| / T", "<= 0.3 %",
-         format(transmittance.value()) + " %");
+  record("G20",
+         "sums of the deterministic tail, up to 500 fragments, T from 0.4 to 1e-6, against long double: |dT| / T",
+         "<= 0.3 %", format(transmittance.value()) + " %");
   record("G20", "the same: colour", "<= 0.5 codes", format(color.value()) + " codes");
   record("G20", "the same in 6 other orders: not the same to the bit", "0", std::to_string(spread));
   record("G20", "opacity alone (core_only) from the same sums: not the same to the bit", "0", std::to_string(unequal));
@@ -108,8 +113,9 @@ TEST(DeterministicTail, SumsAgainstLongDouble) {
 
 TEST(DeterministicTail, Extremes) {
   const float huge = 3e38f;
-  const TailList opaque(kFragments, {{0.5f, 0.25f, 1}, 1}), faint(kFragments, {{0.5f, 0.25f, 1}, 0x1p-20f}),
-      none, wild = {{{kNan, kInf, -kInf}, 0.5f}, {{huge, -1, kDenormal}, 0.5f}}, behind = {{{0, 0, 0}, 0.01f}, {{1, 1, 1}, 1}};
+  const TailList opaque(kFragments, {{0.5f, 0.25f, 1}, 1}), faint(kFragments, {{0.5f, 0.25f, 1}, 0x1p-20f}), none,
+      wild = {{{kNan, kInf, -kInf}, 0.5f}, {{huge, -1, kDenormal}, 0.5f}},
+      behind = {{{0, 0, 0}, 0.01f}, {{1, 1, 1}, 1}};
   const std::vector<TailAnswer> out = tails({opaque, faint, none, wild, behind}, 1, kMean);
   ASSERT_EQ(out.size(), 5u);
   std::size_t broken = 0;
@@ -118,7 +124,8 @@ TEST(DeterministicTail, Extremes) {
     broken += !(a.transmittance >= 0 && a.transmittance <= 1);
   }
   EXPECT_EQ(broken, 0u);
-  record("G20", "500 opaque fragments, 500 of 1e-6, none, colours NaN and infinite: outside [0, 1] or NaN", "0", std::to_string(broken));
+  record("G20", "500 opaque fragments, 500 of 1e-6, none, colours NaN and infinite: outside [0, 1] or NaN", "0",
+         std::to_string(broken));
   // Opaque is opaque: a sun of 1e4 behind it must not show.
   const double leak = std::max(double(out[0].transmittance), double(out[4].transmittance));
   EXPECT_EQ(leak, 0);
@@ -132,14 +139,17 @@ TEST(Modifiers, AgainstTheReferenceAndHostile) {
   std::vector<double> expected;
   for (int i = 0; i < 20000; ++i) {
     reference::OpacityModifiers twin;
-    const double x = 1920 * uniform(random), y = 1080 * uniform(random), d = double(float(std::exp2(10 * uniform(random) - 6)));
+    const double x = 1920 * uniform(random), y = 1080 * uniform(random),
+                 d = double(float(std::exp2(10 * uniform(random) - 6)));
     if (i % 2) {
       const float start = float(2 * uniform(random)), end = start + float(0.01 + uniform(random));
       twin.near_fade = reference::NearFade{double(start), double(end)};
       add(in, {1, double(start), double(1 / (end - start)), 0, 0, 0, x, y, d});
     } else {
-      const float radius = float(300 * uniform(random)), feather = float(1 + 100 * uniform(random)), inside = float(uniform(random));
-      twin.lens = reference::Lens{double(float(960 + x / 10)), double(float(540 - y / 10)), double(radius), double(feather), double(inside)};
+      const float radius = float(300 * uniform(random)), feather = float(1 + 100 * uniform(random)),
+                  inside = float(uniform(random));
+      twin.lens = reference::Lens{double(float(960 + x / 10)), double(float(540 - y / 10)), double(radius),
+                                  double(feather), double(inside)};
       add(in, {2, double(radius), double(1 / feather), double(inside), 960 + x / 10, 540 - y / 10, x, y, d});
     }
     expected.push_back(reference::opacityModifier(twin, double(float(x)), double(float(y)), d));
@@ -162,7 +172,8 @@ TEST(Modifiers, AgainstTheReferenceAndHostile) {
   std::size_t broken = 0;
   for (const float v : runItems(numerics_modifier, in, 9, 1)) broken += !(v >= 0 && v <= 1);
   EXPECT_EQ(broken, 0u);
-  record("G15", "opacity modifiers, depth and distance 0 to inf, ramps of 1e-30 to 1e30: outside [0, 1] or NaN", "0", std::to_string(broken));
+  record("G15", "opacity modifiers, depth and distance 0 to inf, ramps of 1e-30 to 1e30: outside [0, 1] or NaN", "0",
+         std::to_string(broken));
 }
 
 }  // namespace

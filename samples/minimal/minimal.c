@@ -304,7 +304,7 @@ int main(int argc, char** argv) {
   check(flkHairCreate(context, &hair_desc, &hair), "flkHairCreate");
   flkAssetDestroy(asset);
 
-  FlkLight light = {{0.7f, 0.7f, 0.5f}, {8.0f, 7.6f, 7.0f}, 1, 0};
+  FlkLight light = {.direction = {0.7f, 0.7f, 0.5f}, .radiance = {8.0f, 7.6f, 7.0f}, .casts_shadow = 1};
   FlkFrame frame = {.type = FLK_TYPE_FRAME};
   aimCamera(&asset_info, &frame);
   frame.hair_count = 1;

@@ -60,36 +60,82 @@ bool enterBounds(const glm::vec3& origin, const glm::vec3& direction, float marg
   return to > from;
 }
 
-glm::vec3 shadePoint(const BustLook& look, const glm::vec3& to_light, const glm::vec3& p, const glm::vec3& to_eye) {
+// Share of the light that the bust itself lets through: marched along its field, with a soft edge.
+float pastBust(const glm::vec3& p, const glm::vec3& normal, const glm::vec3& to_light, float reach) {
+  float t = 0.004f;
+  float visible = 1.0f;
+  for (int i = 0; i < 8 && t < std::min(reach, 0.30f) && visible > 0.02f; ++i) {
+    const float d = shape::bust<float>(p + normal * 0.0015f + to_light * t);
+    visible = std::min(visible, 10.0f * d / t);
+    t += std::max(1.2f * d, 0.010f);
+  }
+  return std::clamp(visible, 0.0f, 1.0f);
+}
+
+// What arrives at p of a light of colour 1, and from where.
+float arriving(const BustLight& light, const glm::vec3& p, glm::vec3& to_light, float& distance) {
+  if (!light.placed) {
+    to_light = glm::normalize(light.to_light);
+    distance = std::numeric_limits<float>::infinity();
+    return 1.0f;
+  }
+  const glm::vec3 d = light.position - p;
+  distance = std::max(glm::length(d), 1e-6f);
+  to_light = d / distance;
+  const float square = distance * distance;
+  const float reach = light.range > 0.0f ? square / (light.range * light.range) : 0.0f;
+  const float window = std::max(1.0f - reach * reach, 0.0f);
+  float cone = 1.0f;
+  if (light.cos_inner > light.cos_outer) {
+    const float cosine = glm::dot(to_light, glm::normalize(light.to_light));
+    cone = std::clamp((cosine - light.cos_outer) / (light.cos_inner - light.cos_outer), 0.0f, 1.0f);
+  }
+  return window * window * cone * cone / std::max(square, light.source_radius * light.source_radius);
+}
+
+// Irradiance / pi from nine coefficients of radiance: Ramamoorthi and Hanrahan 2001, their A_l / pi being 1, 2/3, 1/4.
+glm::vec3 irradiance(const std::array<glm::vec3, 9>& c, const glm::vec3& n) {
+  const glm::vec3 sum = 0.282095f * c[0] + (2.0f / 3.0f) * 0.488603f * (n.y * c[1] + n.z * c[2] + n.x * c[3]) +
+                        0.25f * (1.092548f * (n.x * n.y * c[4] + n.y * n.z * c[5] + n.x * n.z * c[7]) +
+                                 0.315392f * (3.0f * n.z * n.z - 1.0f) * c[6] +
+                                 0.546274f * (n.x * n.x - n.y * n.y) * c[8]);
+  return glm::max(sum, glm::vec3(0.0f));
+}
+
+glm::vec3 shadePoint(const BustLook& look, const glm::vec3& p, const glm::vec3& to_eye) {
   const glm::vec3 normal = shape::bustNormal<float>(p);
   // Two samples of the field along the normal darken eye sockets and the neck under the chin.
   const float near_gap = shape::bust<float>(p + normal * 0.012f) / 0.012f;
   const float far_gap = shape::bust<float>(p + normal * 0.045f) / 0.045f;
   const float open = std::clamp(0.35f + 0.30f * near_gap + 0.35f * far_gap, 0.0f, 1.0f);
-  float lit = std::max(glm::dot(normal, to_light), 0.0f);
-  float through = 1.0f;
-  if (lit > 0.0f) {
-    float t = 0.004f;
-    float visible = 1.0f;
-    for (int i = 0; i < 8 && t < 0.30f && visible > 0.02f; ++i) {
-      const float d = shape::bust<float>(p + normal * 0.0015f + to_light * t);
-      visible = std::min(visible, 10.0f * d / t);
-      t += std::max(1.2f * d, 0.010f);
+  glm::vec3 diffuse(0.0f), gloss(0.0f);
+  float weight = 0.0f, weighted_through = 0.0f;
+  for (const BustLight& light : look.lights) {
+    glm::vec3 to_light;
+    float distance = 0.0f;
+    const float strength = arriving(light, p, to_light, distance);
+    float lit = std::max(glm::dot(normal, to_light), 0.0f) * strength;
+    if (lit <= 0.0f) {
+      continue;
     }
-    lit *= std::clamp(visible, 0.0f, 1.0f);
-    if (look.light_through_hair && lit > 0.0f) {
-      through = std::clamp(look.light_through_hair(p), 0.0f, 1.0f);
+    lit *= pastBust(p, normal, to_light, distance);
+    if (light.light_through_hair && lit > 0.0f) {
+      const float through = std::clamp(light.light_through_hair(p), 0.0f, 1.0f);
+      const float share = lit * (light.color.x + light.color.y + light.color.z);
+      weight += share;
+      weighted_through += share * through;
       lit *= through;
     }
+    const glm::vec3 half = glm::normalize(to_light + to_eye);
+    const float cosine = std::max(glm::dot(normal, half), 0.0f);
+    const float square = cosine * cosine;
+    diffuse += light.color * (lit * 0.3183099f);
+    gloss += light.color * (0.05f * lit * square * square * square * square * 0.3183099f);
   }
-  const float sky = 0.6f + 0.4f * normal.y;
-  const glm::vec3 half = glm::normalize(to_light + to_eye);
-  const float cosine = std::max(glm::dot(normal, half), 0.0f);
-  const float square = cosine * cosine;
-  const float gloss = 0.05f * lit * square * square * square * square;
+  const float through = weight > 0.0f ? weighted_through / weight : 1.0f;
   const float sky_through = 0.4f + 0.6f * through;  // what hides the light hides much of the sky
-  const glm::vec3 arriving = look.light * (lit * 0.3183099f) + look.ambient * (sky * open * sky_through);
-  return look.albedo * arriving + look.light * (gloss * 0.3183099f);
+  const glm::vec3 sky = look.ambient * (0.6f + 0.4f * normal.y) + irradiance(look.ambient_sh, normal);
+  return look.albedo * (diffuse + sky * (open * sky_through)) + gloss;
 }
 
 }  // namespace
@@ -99,7 +145,6 @@ BustImage drawBust(const Camera& camera, uint32_t width, uint32_t height, const 
   result.color = Image(width, height);
   result.depth.assign(size_t{width} * height, std::numeric_limits<float>::infinity());
   const RayMaker maker(camera, width, height);
-  const glm::vec3 to_light = glm::normalize(look.to_light);
   const uint32_t tiles_x = (width + kTile - 1) / kTile;
   const uint32_t tiles_y = (height + kTile - 1) / kTile;
 
@@ -146,7 +191,7 @@ BustImage drawBust(const Camera& camera, uint32_t width, uint32_t height, const 
         if (!hit || depth < static_cast<float>(camera.near_m) || depth > static_cast<float>(camera.far_m)) {
           continue;
         }
-        const glm::vec3 color = shadePoint(look, to_light, origin + direction * t, -direction);
+        const glm::vec3 color = shadePoint(look, origin + direction * t, -direction);
         float* pixel = result.color.pixel(x, y);
         pixel[0] = color.x;
         pixel[1] = color.y;

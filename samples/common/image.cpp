@@ -30,6 +30,8 @@ uint8_t toSrgb(float linear) {
   return static_cast<uint8_t>(encoded * 255.0f + 0.5f);
 }
 
+float fromSrgb(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
+
 void writePfm(const std::string& path, const Image& image) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file) {
@@ -99,6 +101,41 @@ Image over(const Image& image, const float background[3]) {
 bool isImagePath(const std::string& path) {
   const std::string extension = extensionOf(path);
   return extension == ".png" || extension == ".exr" || extension == ".pfm";
+}
+
+Image readImage(const std::string& path) {
+  const std::string extension = extensionOf(path);
+  if (extension != ".png" && extension != ".exr") {
+    throw std::runtime_error("no picture that can be read, use .png or .exr");
+  }
+  const auto input = OIIO::ImageInput::open(path);
+  if (!input) {
+    throw std::runtime_error("cannot be read as a picture: " + OIIO::geterror());
+  }
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.width > 16384 || spec.height > 16384 || spec.nchannels < 1) {
+    throw std::runtime_error("is " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                             ", sides must lie in [1, 16384]");
+  }
+  Image image(static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height));
+  const size_t channels = static_cast<size_t>(spec.nchannels), pixels = size_t{image.width} * image.height;
+  std::vector<float> values(channels * pixels);
+  const bool encoded = extension == ".png" && spec.get_string_attribute("oiio:ColorSpace", "sRGB") != "Linear";
+  const size_t colors = channels >= 3 ? 3 : 1;
+  const bool has_alpha = channels > colors;
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) {
+    throw std::runtime_error("cannot be read as a picture: " + input->geterror());
+  }
+  for (size_t i = 0; i < pixels; ++i) {
+    const float* from = &values[channels * i];
+    float* to = &image.rgba[4 * i];
+    to[3] = has_alpha ? from[colors] : 1.0f;
+    for (size_t channel = 0; channel < 3; ++channel) {
+      const float value = from[colors == 3 ? channel : 0];
+      to[channel] = encoded ? fromSrgb(value) : value;
+    }
+  }
+  return image;
 }
 
 void writeImage(const std::string& path, const Image& image) {

@@ -28,6 +28,10 @@ Image over(const Image& image, const float background[3]);
 // std::runtime_error with what went wrong.
 void writeImage(const std::string& path, const Image& image);
 
+// Reads a .png (8 or 16 bit, taken as sRGB unless it says linear) or .exr (linear); one channel becomes grey, no alpha
+// becomes 1. Premultiplied. Throws std::runtime_error with what went wrong.
+Image readImage(const std::string& path);
+
 // Whether writeImage knows the path's extension.
 bool isImagePath(const std::string& path);
 

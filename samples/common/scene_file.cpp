@@ -17,91 +17,59 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// KeyReader words its own complaints for recipes: keys of a scene are checked before it sees them.
-void checkKeys(const nlohmann::json& object, const std::string& path, const std::vector<std::string>& known) {
-  if (!object.is_object()) {
-    throw SceneError((path.empty() ? "the scene" : path) + " must be an object { ... }");
-  }
-  for (const auto& item : object.items()) {
-    if (std::find(known.begin(), known.end(), item.key()) == known.end()) {
-      std::string list;
-      for (const std::string& key : known) {
-        list += (list.empty() ? "" : ", ") + key;
-      }
-      throw SceneError((path.empty() ? "" : path + ".") + item.key() + " is no key of a scene; known here: " + list);
-    }
-  }
-}
-
-uint32_t choice(KeyReader& reader, const char* key, const std::vector<std::string>& names, uint32_t value) {
-  std::string text = names[value];
-  reader.text(key, text);
-  const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) {
-    std::string list;
-    for (const std::string& name : names) {
-      list += (list.empty() ? "" : ", ") + name;
-    }
-    throw SceneError(reader.fullKey(key) + " is \"" + text + "\", must be one of " + list);
-  }
-  return static_cast<uint32_t>(found - names.begin());
-}
-
-void flag(const nlohmann::json& object, const KeyReader& reader, const char* key, bool& value) {
-  const auto found = object.find(key);
-  if (found == object.end()) {
-    return;
-  }
-  if (!found->is_boolean()) {
-    throw SceneError(reader.fullKey(key) + " is " + found->dump() + ", must be true or false");
-  }
-  value = found->get<bool>();
-}
-
-void color(KeyReader& reader, const char* key, glm::dvec3& value) {
-  std::string text;
-  reader.text(key, text);
-  if (reader.has(key) && !parseHexColor(text, value)) {
-    throw SceneError(reader.fullKey(key) + " is \"" + text + "\", must be sRGB as \"#rrggbb\"");
-  }
-}
-
-void real(KeyReader& reader, const char* key, float& value, double low, double high, const char* unit) {
-  double number = static_cast<double>(value);
-  reader.number(key, number, low, high, unit);
-  value = static_cast<float>(number);
-}
-
 void readMaterial(const nlohmann::json& json, const std::string& path, SceneAsset& asset) {
   checkKeys(json, path, {"color", "opacity_root", "opacity_tip", "width_mm", "diffuse", "specular_r", "exponent_r",
-                         "specular_trt", "exponent_trt", "cuticle_tilt_deg", "shadow_opacity", "fibre_spacing_mm"});
+                         "specular_trt", "exponent_trt", "cuticle_tilt_deg", "shadow_opacity", "fibre_spacing_mm",
+                         "tip_color", "tip_blend"});
   KeyReader reader(json, path);
   FlkMaterial& material = asset.material;
   glm::dvec3 hair(material.color[0], material.color[1], material.color[2]);
-  color(reader, "color", hair);
+  readColor(reader, "color", hair);
+  asset.color_given = reader.has("color");
   for (int i = 0; i < 3; ++i) {
     material.color[i] = static_cast<float>(hair[i]);
   }
-  real(reader, "opacity_root", material.opacity_root, 0.0, 1.0, "");
-  real(reader, "opacity_tip", material.opacity_tip, 0.0, 1.0, "");
+  readReal(reader, "opacity_root", material.opacity_root, 0.0, 1.0, "");
+  readReal(reader, "opacity_tip", material.opacity_tip, 0.0, 1.0, "");
   reader.number("width_mm", asset.width_mm, 0.0, 1e6, "mm");
-  real(reader, "diffuse", material.diffuse, 0.0, 1e3, "");
-  real(reader, "specular_r", material.specular_r, 0.0, 1e3, "");
-  real(reader, "exponent_r", material.exponent_r, 0.0, 1e6, "");
-  real(reader, "specular_trt", material.specular_trt, 0.0, 1e3, "");
-  real(reader, "exponent_trt", material.exponent_trt, 0.0, 1e6, "");
+  readReal(reader, "diffuse", material.diffuse, 0.0, 1e3, "");
+  readReal(reader, "specular_r", material.specular_r, 0.0, 1e3, "");
+  readReal(reader, "exponent_r", material.exponent_r, 0.0, 1e6, "");
+  readReal(reader, "specular_trt", material.specular_trt, 0.0, 1e3, "");
+  readReal(reader, "exponent_trt", material.exponent_trt, 0.0, 1e6, "");
   constexpr double degree = 3.14159265358979323846 / 180.0;
   double tilt_deg = static_cast<double>(material.cuticle_tilt) / degree;
   reader.number("cuticle_tilt_deg", tilt_deg, -45.0, 45.0, "degrees");
   material.cuticle_tilt = static_cast<float>(tilt_deg * degree);
-  real(reader, "shadow_opacity", material.shadow_opacity, 0.0, 1.0, "");
+  readReal(reader, "shadow_opacity", material.shadow_opacity, 0.0, 1.0, "");
   double spacing_mm = static_cast<double>(material.fibre_spacing) * 1e3;
   reader.number("fibre_spacing_mm", spacing_mm, 1e-6, 1e9, "mm");
   material.fibre_spacing = static_cast<float>(spacing_mm * 1e-3);
+  if (!reader.has("tip_color")) {
+    refuseKeys(reader, {"tip_blend"}, "a material with tip_color, which is missing");
+    return;
+  }
+  glm::dvec3 tip;
+  readColor(reader, "tip_color", tip);
+  for (int i = 0; i < 3; ++i) {
+    material.tip_color[i] = static_cast<float>(tip[i]);
+  }
+  material.tip_blend = 1.0f;
+  readReal(reader, "tip_blend", material.tip_blend, 0.0, 1.0, "");
+}
+
+void readFollow(const nlohmann::json& json, const std::string& path, SceneFollow& follow) {
+  checkKeys(json, path, {"count", "radius_mm", "spread_tip", "seed"});
+  KeyReader reader(json, path);
+  reader.require("count");
+  reader.integer("count", follow.count, 0, 1023);
+  reader.number("radius_mm", follow.radius_mm, 0.0, 1e6, "mm");
+  reader.number("spread_tip", follow.spread_tip, 0.0, 1e3, "");
+  reader.integer("seed", follow.seed, 0, 0xFFFFFFFFu);
 }
 
 void readAsset(const nlohmann::json& json, const std::string& path, SceneAsset& asset) {
-  checkKeys(json, path, {"source", "material", "position", "turn", "scale"});
+  checkKeys(json, path, {"source", "material", "position", "turn", "scale", "follow", "root_image", "ignore_colors"});
   KeyReader reader(json, path);
   reader.require("source");
   reader.text("source", asset.source);
@@ -111,6 +79,11 @@ void readAsset(const nlohmann::json& json, const std::string& path, SceneAsset& 
   if (reader.has("material")) {
     readMaterial(json.at("material"), reader.fullKey("material"), asset);
   }
+  if (reader.has("follow")) {
+    readFollow(json.at("follow"), reader.fullKey("follow"), asset.follow);
+  }
+  reader.text("root_image", asset.root_image);
+  readFlag(json, reader, "ignore_colors", asset.ignore_colors);
 }
 
 void readCamera(const nlohmann::json& json, SceneCamera& camera) {
@@ -120,15 +93,11 @@ void readCamera(const nlohmann::json& json, SceneCamera& camera) {
   reader.text("name", camera.name);
   reader.number("azimuth", camera.azimuth_deg, -360.0, 360.0, "degrees");
   reader.number("elevation", camera.elevation_deg, -90.0, 90.0, "degrees");
-  camera.up = choice(reader, "up", {"y", "z"}, camera.up == UpAxis::Z ? 1 : 0) == 1 ? UpAxis::Z : UpAxis::Y;
+  camera.up = readChoice(reader, "up", {"y", "z"}, camera.up == UpAxis::Z ? 1 : 0) == 1 ? UpAxis::Z : UpAxis::Y;
   reader.number("vertical_fov", camera.vertical_fov_deg, 1.0, 150.0, "degrees");
   reader.number("margin", camera.margin, 0.1, 100.0, "");
   if (!reader.has("eye")) {
-    for (const char* key : {"target", "up_vector", "near", "far"}) {
-      if (reader.has(key)) {
-        throw SceneError(std::string("camera.") + key + " belongs to a camera with eye, which is missing");
-      }
-    }
+    refuseKeys(reader, {"target", "up_vector", "near", "far"}, "a camera with eye, which is missing");
     return;
   }
   Camera placed;
@@ -149,27 +118,77 @@ void readCamera(const nlohmann::json& json, SceneCamera& camera) {
   camera.placed = placed;
 }
 
+void readLighting(const nlohmann::json& json, KeyReader& top, Scene& scene) {
+  if (top.has("light") && top.has("lights")) {
+    throw SceneError("light and lights are both given, must be one of them: light is short for lights with one entry");
+  }
+  if (top.has("light")) {
+    scene.lights = {readLight(json.at("light"), "light")};
+  } else if (top.has("lights")) {
+    scene.lights.clear();
+    const nlohmann::json& lights = top.array("lights", 4096);
+    for (size_t i = 0; i < lights.size(); ++i) {
+      scene.lights.push_back(readLight(lights[i], "lights[" + std::to_string(i) + "]"));
+    }
+  }
+  if (top.has("sky") && top.has("ambient_sh")) {
+    throw SceneError("sky and ambient_sh are both given, must be one of them: a sky is turned into ambient_sh");
+  }
+  if (top.has("sky")) {
+    scene.sky = readSky(json.at("sky"));
+  }
+  if (top.has("ambient_sh")) {
+    scene.ambient_sh = readHarmonics(json.at("ambient_sh"));
+  }
+  if (scene.sky || scene.ambient_sh) {
+    scene.ambient = glm::dvec3(0.0);
+  }
+  top.vector("ambient", scene.ambient, 0.0, 1e3, "");
+}
+
+SceneNearFade readNearFade(const nlohmann::json& json) {
+  checkKeys(json, "near_fade", {"start_m", "end_m"});
+  SceneNearFade fade;
+  KeyReader reader(json, "near_fade");
+  reader.require("end_m");
+  reader.number("start_m", fade.start_m, 0.0, 1e6, "m");
+  reader.number("end_m", fade.end_m, 1e-6, 1e6, "m");
+  if (fade.end_m <= fade.start_m) {
+    throw SceneError("near_fade.end_m is " + json.at("end_m").dump() + ", must be beyond start_m");
+  }
+  return fade;
+}
+
+SceneLens readLens(const nlohmann::json& json) {
+  checkKeys(json, "lens", {"center", "radius", "feather", "inside"});
+  SceneLens lens;
+  KeyReader reader(json, "lens");
+  const nlohmann::json& center = reader.array("center", 2);
+  if (reader.has("center")) {
+    const auto fits = [](const nlohmann::json& v) { return v.is_number() && std::abs(v.get<double>()) <= 10.0; };
+    if (center.size() != 2 || !fits(center[0]) || !fits(center[1])) {
+      throw SceneError("lens.center is " + center.dump() + ", must be two numbers in [-10, 10]");
+    }
+    lens.center[0] = center[0].get<double>();
+    lens.center[1] = center[1].get<double>();
+  }
+  reader.number("radius", lens.radius, 0.0, 10.0, "");
+  reader.number("feather", lens.feather, 0.001, 10.0, "");
+  reader.number("inside", lens.inside, 0.0, 1.0, "");
+  return lens;
+}
+
 Scene readScene(const nlohmann::json& json) {
-  checkKeys(json, "", {"assets", "light", "ambient", "exposure", "camera", "size", "background", "head", "method", "k",
-                       "k_sort", "payload", "show"});
+  checkKeys(json, "", {"assets", "light", "lights", "ambient", "sky", "ambient_sh", "exposure", "camera", "size",
+                       "background", "head", "method", "k", "k_sort", "tail", "payload", "capture", "show", "near_fade",
+                       "lens"});
   Scene scene;
   KeyReader top(json, "");
   const nlohmann::json& assets = top.array("assets", 63);
   for (size_t i = 0; i < assets.size(); ++i) {
     readAsset(assets[i], "assets[" + std::to_string(i) + "]", scene.assets.emplace_back());
   }
-  if (top.has("light")) {
-    const nlohmann::json& light = json.at("light");
-    checkKeys(light, "light", {"azimuth", "elevation", "color", "shadow", "shadow_size"});
-    KeyReader reader(light, "light");
-    reader.number("azimuth", scene.light.azimuth_deg, -360.0, 360.0, "degrees");
-    reader.number("elevation", scene.light.elevation_deg, -90.0, 90.0, "degrees");
-    color(reader, "color", scene.light.color);
-    flag(light, reader, "shadow", scene.light.shadow);
-    reader.integer("shadow_size", scene.light.shadow_size, 64, 8192);
-    scene.light.shadow_size -= scene.light.shadow_size % 2;
-  }
-  top.vector("ambient", scene.ambient, 0.0, 1e3, "");
+  readLighting(json, top, scene);
   top.number("exposure", scene.exposure, 0.0, 1e6, "");
   if (top.has("camera")) {
     readCamera(json.at("camera"), scene.camera);
@@ -187,22 +206,30 @@ Scene readScene(const nlohmann::json& json) {
   }
   if (top.has("background")) {
     glm::dvec3 background;
-    color(top, "background", background);
+    readColor(top, "background", background);
     scene.background = background;
   }
   if (top.has("head")) {
     bool head = false;
-    flag(json, top, "head", head);
+    readFlag(json, top, "head", head);
     scene.head = head;
   }
-  scene.method = choice(top, "method", methodNames(), scene.method);
+  scene.method = readChoice(top, "method", methodNames(), scene.method);
   top.integer("k", scene.k, 0, 32);
   if (top.has("k") && scene.k == 0) {
     scene.k = FLK_K_NONE;
   }
   top.integer("k_sort", scene.k_sort, 1, 32);
-  scene.payload = choice(top, "payload", payloadNames(), scene.payload);
-  scene.display = choice(top, "show", displayNames(), scene.display);
+  scene.payload = readChoice(top, "payload", payloadNames(), scene.payload);
+  scene.display = readChoice(top, "show", displayNames(), scene.display);
+  scene.tail = readChoice(top, "tail", tailNames(), scene.tail);
+  scene.capture = readChoice(top, "capture", captureNames(), scene.capture);
+  if (top.has("near_fade")) {
+    scene.near_fade = readNearFade(json.at("near_fade"));
+  }
+  if (top.has("lens")) {
+    scene.lens = readLens(json.at("lens"));
+  }
   return scene;
 }
 
@@ -218,6 +245,43 @@ double shortest(float value) {
     }
   }
   return std::strtod(text, nullptr);
+}
+
+Json assetJson(const SceneAsset& asset) {
+  const FlkMaterial& m = asset.material;
+  Json material;
+  if (asset.color_given) {
+    material["color"] = hexColor({m.color[0], m.color[1], m.color[2]});
+  }
+  material["opacity_root"] = shortest(m.opacity_root);
+  material["opacity_tip"] = shortest(m.opacity_tip);
+  material["width_mm"] = asset.width_mm;
+  material["diffuse"] = shortest(m.diffuse);
+  material["specular_r"] = shortest(m.specular_r);
+  material["exponent_r"] = shortest(m.exponent_r);
+  material["specular_trt"] = shortest(m.specular_trt);
+  material["exponent_trt"] = shortest(m.exponent_trt);
+  material["cuticle_tilt_deg"] = static_cast<double>(m.cuticle_tilt) * (180.0 / 3.14159265358979323846);
+  material["shadow_opacity"] = shortest(m.shadow_opacity);
+  material["fibre_spacing_mm"] = static_cast<double>(m.fibre_spacing) * 1e3;
+  if (m.tip_blend > 0.0f) {
+    material["tip_color"] = hexColor({m.tip_color[0], m.tip_color[1], m.tip_color[2]});
+    material["tip_blend"] = shortest(m.tip_blend);
+  }
+  Json json = {{"source", asset.source}, {"position", triple(asset.position)}, {"turn", asset.turn_deg},
+               {"scale", asset.scale}};
+  if (asset.follow.count > 0) {
+    json["follow"] = {{"count", asset.follow.count}, {"radius_mm", asset.follow.radius_mm},
+                      {"spread_tip", asset.follow.spread_tip}, {"seed", asset.follow.seed}};
+  }
+  if (!asset.root_image.empty()) {
+    json["root_image"] = asset.root_image;
+  }
+  if (asset.ignore_colors) {
+    json["ignore_colors"] = true;
+  }
+  json["material"] = std::move(material);
+  return json;
 }
 
 }  // namespace
@@ -259,10 +323,17 @@ Scene loadScene(const std::string& path) {
     throw SceneError("cannot be read as a scene file");
   }
   Scene scene = parseScene(text.str());
+  const auto fromHere = [&](std::string& name) {
+    if (std::filesystem::path(name).is_relative()) {
+      name = (std::filesystem::path(path).parent_path() / name).string();
+    }
+  };
   for (SceneAsset& asset : scene.assets) {
-    const std::filesystem::path source(asset.source);
-    if (asset.source.rfind("groom:", 0) != 0 && source.is_relative()) {
-      asset.source = (std::filesystem::path(path).parent_path() / source).string();
+    if (asset.source.rfind("groom:", 0) != 0) {
+      fromHere(asset.source);
+    }
+    if (!asset.root_image.empty()) {
+      fromHere(asset.root_image);
     }
   }
   return scene;
@@ -273,23 +344,25 @@ std::string writeScene(const Scene& scene) {
   Json json;
   json["assets"] = Json::array();
   for (const SceneAsset& asset : scene.assets) {
-    const FlkMaterial& m = asset.material;
-    json["assets"].push_back(
-        {{"source", asset.source}, {"position", triple(asset.position)}, {"turn", asset.turn_deg},
-         {"scale", asset.scale},
-         {"material", {{"color", hexColor({m.color[0], m.color[1], m.color[2]})},
-                       {"opacity_root", shortest(m.opacity_root)}, {"opacity_tip", shortest(m.opacity_tip)},
-                       {"width_mm", asset.width_mm}, {"diffuse", shortest(m.diffuse)},
-                       {"specular_r", shortest(m.specular_r)}, {"exponent_r", shortest(m.exponent_r)},
-                       {"specular_trt", shortest(m.specular_trt)}, {"exponent_trt", shortest(m.exponent_trt)},
-                       {"cuticle_tilt_deg", static_cast<double>(m.cuticle_tilt) * radian},
-                       {"shadow_opacity", shortest(m.shadow_opacity)},
-                       {"fibre_spacing_mm", static_cast<double>(m.fibre_spacing) * 1e3}}}});
+    json["assets"].push_back(assetJson(asset));
   }
-  json["light"] = {{"azimuth", scene.light.azimuth_deg}, {"elevation", scene.light.elevation_deg},
-                   {"color", hexColor(scene.light.color)}, {"shadow", scene.light.shadow},
-                   {"shadow_size", scene.light.shadow_size}};
+  if (scene.lights.size() == 1) {
+    json["light"] = lightJson(scene.lights[0]);
+  } else {
+    json["lights"] = Json::array();
+    for (const SceneLight& light : scene.lights) {
+      json["lights"].push_back(lightJson(light));
+    }
+  }
   json["ambient"] = triple(scene.ambient);
+  if (scene.sky) {
+    json["sky"] = skyJson(*scene.sky);
+  }
+  if (scene.ambient_sh) {
+    for (const glm::dvec3& coefficient : *scene.ambient_sh) {
+      json["ambient_sh"].push_back(triple(coefficient));
+    }
+  }
   json["exposure"] = scene.exposure;
   const SceneCamera& camera = scene.camera;
   json["camera"] = {{"azimuth", camera.azimuth_deg}, {"elevation", camera.elevation_deg},
@@ -324,11 +397,20 @@ std::string writeScene(const Scene& scene) {
   }
   json["payload"] = payloadNames()[scene.payload];
   json["show"] = displayNames()[scene.display];
+  json["tail"] = tailNames()[scene.tail];
+  json["capture"] = captureNames()[scene.capture];
+  if (scene.near_fade) {
+    json["near_fade"] = {{"start_m", scene.near_fade->start_m}, {"end_m", scene.near_fade->end_m}};
+  }
+  if (scene.lens) {
+    json["lens"] = {{"center", {scene.lens->center[0], scene.lens->center[1]}}, {"radius", scene.lens->radius},
+                    {"feather", scene.lens->feather}, {"inside", scene.lens->inside}};
+  }
   return json.dump(2) + "\n";
 }
 
 const std::vector<std::string>& methodNames() {
-  static const std::vector<std::string> names{"core_tail", "exact", "forward"};
+  static const std::vector<std::string> names{"core_tail", "exact", "forward", "core_only", "all_low", "hard"};
   return names;
 }
 
@@ -337,33 +419,19 @@ const std::vector<std::string>& payloadNames() {
   return names;
 }
 
-const std::vector<std::string>& displayNames() {
-  static const std::vector<std::string> names{"shaded", "strand", "root-tip", "width", "depth", "layers"};
+const std::vector<std::string>& tailNames() {
+  static const std::vector<std::string> names{"default", "deterministic", "list"};
   return names;
 }
 
-bool parseHexColor(const std::string& text, glm::dvec3& linear) {
-  const std::string digits = !text.empty() && text[0] == '#' ? text.substr(1) : text;
-  if (digits.size() != 6 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) {
-    return false;
-  }
-  for (int i = 0; i < 3; ++i) {
-    const double x = std::stoi(digits.substr(static_cast<size_t>(2 * i), 2), nullptr, 16) / 255.0;
-    linear[i] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-  }
-  return true;
+const std::vector<std::string>& captureNames() {
+  static const std::vector<std::string> names{"default", "raster", "compute"};
+  return names;
 }
 
-std::string hexColor(const glm::dvec3& linear) {
-  std::string text = "#";
-  for (int i = 0; i < 3; ++i) {
-    const double x = std::clamp(linear[i], 0.0, 1.0);
-    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-    char pair[8];
-    std::snprintf(pair, sizeof pair, "%02x", static_cast<unsigned>(encoded * 255.0 + 0.5));
-    text += pair;
-  }
-  return text;
+const std::vector<std::string>& displayNames() {
+  static const std::vector<std::string> names{"shaded", "strand", "root-tip", "width", "depth", "layers"};
+  return names;
 }
 
 }  // namespace forelock::samples

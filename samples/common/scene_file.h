@@ -3,43 +3,55 @@
 #pragma once
 
 #include "camera.h"
+#include "scene_keys.h"
+#include "scene_light.h"
 
 #include <forelock/render.h>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace forelock::samples {
 
-// What is wrong with a scene, as one sentence that names the key, the value and the range.
-struct SceneError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 // Brown hair with narrower highlights and softer shadows than flkMaterialDefault, whose weights are those of a
 // real-time sample of 2018.
 FlkMaterial pictureMaterial();
 
+// Strands beside each strand of an asset.
+struct SceneFollow {
+  uint32_t count = 0;
+  double radius_mm = 1.0;  // where a unit is a metre
+  double spread_tip = 1.0;
+  uint32_t seed = 1;
+};
+
 struct SceneAsset {
   std::string source;  // as on the command line: a file or groom:NAME
   FlkMaterial material = pictureMaterial();
+  bool color_given = false;  // material.color is meant: else an asset with colours of its own has white
   double width_mm = 0.0;  // diameter of the widest vertex where a unit is a metre; 0: as the asset has it
   glm::dvec3 position{0.0, 0.0, 0.0};  // (m)
   double turn_deg = 0.0;               // about the up axis
   double scale = 1.0;
+  SceneFollow follow;
+  std::string root_image;      // path; empty: none
+  bool ignore_colors = false;  // leave the asset's vertex colours out
 };
 
-// Directions are seen from the camera: azimuth 0 shines along the view, negative comes from the left.
-struct SceneLight {
-  double azimuth_deg = -42.0;
-  double elevation_deg = 44.0;
-  glm::dvec3 color{1.0, 0.97, 0.93};  // linear
-  bool shadow = true;
-  uint32_t shadow_size = 2048;
+// Hair fades in between two view depths.
+struct SceneNearFade {
+  double start_m = 0.0, end_m = 0.0;
+};
+
+// A disc of the picture in which hair is let through.
+struct SceneLens {
+  double center[2] = {0.5, 0.5};  // share of width and height, from the upper left
+  double radius = 0.15;           // share of the height
+  double feather = 0.05;          // likewise
+  double inside = 0.1;            // what is left of opacity
 };
 
 struct SceneCamera {
@@ -54,9 +66,11 @@ struct SceneCamera {
 
 struct Scene {
   std::vector<SceneAsset> assets;
-  SceneLight light;
-  glm::dvec3 ambient{0.06, 0.065, 0.075};  // share of the light's radiance
-  double exposure = 0.0;                 // radiance of the light; 0: chosen from a small first picture
+  std::vector<SceneLight> lights{SceneLight{}};
+  glm::dvec3 ambient{0.06, 0.065, 0.075};  // radiance from everywhere, times the exposure
+  std::optional<SceneSky> sky;             // added to it, at most one of the two
+  std::optional<Harmonics> ambient_sh;     // (world)
+  double exposure = 0.0;                 // what all light is multiplied by; 0: chosen from a small first picture
   SceneCamera camera;
   uint32_t width = 0, height = 0;        // 0: the stored camera's, else 1024 x 1024
   std::optional<glm::dvec3> background;  // linear; none: transparent
@@ -65,6 +79,10 @@ struct Scene {
   uint32_t k = 0, k_sort = 0;            // as in FlkFrame
   uint32_t payload = FLK_PAYLOAD_DEFAULT;
   uint32_t display = FLK_DISPLAY_SHADED;
+  uint32_t tail = FLK_TAIL_DEFAULT;
+  uint32_t capture = FLK_CAPTURE_DEFAULT;
+  std::optional<SceneNearFade> near_fade;
+  std::optional<SceneLens> lens;
 };
 
 // Throws SceneError.
@@ -80,9 +98,7 @@ std::string writeScene(const Scene& scene);
 const std::vector<std::string>& methodNames();
 const std::vector<std::string>& payloadNames();
 const std::vector<std::string>& displayNames();
-
-// "c08040" or "#c08040" to linear. False: not six hexadecimal digits.
-bool parseHexColor(const std::string& text, glm::dvec3& linear);
-std::string hexColor(const glm::dvec3& linear);
+const std::vector<std::string>& tailNames();
+const std::vector<std::string>& captureNames();
 
 }  // namespace forelock::samples

@@ -13,7 +13,7 @@ namespace forelock::samples {
 
 struct Picture {
   Image image;                 // over the bust and the background, if there are any
-  double exposure = 0.0;       // radiance of the light
+  double exposure = 0.0;       // what all light is multiplied by
   uint64_t hair_pixels = 0;    // where hair is not wholly transparent
   FlkStatistics statistics{};  // of the frame that is shown
   FlkPlanInfo plan{};

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 
 namespace forelock::samples {
 
@@ -21,7 +22,8 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  forelock plan groom:long-wavy\n"
     "  forelock plan groom:long-wavy --no-shadow --size 1920x1080     what leaving out shadows saves\n"
-    "  forelock plan pony.tfx --method forward --json\n"
+    "  forelock plan pony.tfx --method hard                           no lists: what that saves\n"
+    "  forelock plan pony.tfx --capture compute --json                hashes tell which passes run other code\n"
     "  forelock plan --scene scene.json\n";
 
 constexpr const char* kStages[FLK_STAGE_COUNT] = {"clear", "shadow", "capture", "resolve", "prepare", "output"};
@@ -32,6 +34,15 @@ struct Planned {
   std::vector<FlkResourceInfo> resources;
   std::vector<std::string> omissions;
 };
+
+// Of a pass without code of its own nothing. Text, since JSON numbers hold 53 bits.
+std::string hashText(uint64_t hash) {
+  char text[24] = "";
+  if (hash != 0) {
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  }
+  return text;
+}
 
 std::string workOf(const FlkPassInfo& pass) {
   if (pass.indices > 0) {
@@ -46,34 +57,52 @@ std::string workOf(const FlkPassInfo& pass) {
   return "fills and barriers";
 }
 
+uint64_t segmentsOf(const StagedAsset& asset) {
+  return uint64_t{asset.info.vertex_count - asset.info.strand_count} * (1 + uint64_t{asset.follow.count});
+}
+
 void printText(const Stage& stage, const Planned& planned) {
   for (const StagedAsset& asset : stage.assets) {
-    std::printf("%s: %s strands, %s segments\n", asset.opened.label.c_str(),
-                groupedDigits(asset.info.strand_count).c_str(),
-                groupedDigits(asset.info.vertex_count - asset.info.strand_count).c_str());
+    const std::string follow = asset.follow.count == 0
+                                   ? ""
+                                   : " with " + std::to_string(asset.follow.count) + " follow strands beside each";
+    std::printf("%s: %s strands%s, %s segments\n", asset.opened.label.c_str(),
+                groupedDigits(asset.info.strand_count).c_str(), follow.c_str(), groupedDigits(segmentsOf(asset)).c_str());
   }
   std::printf("%u x %u, %s; hair in %u x %u pixels at (%u, %u)\n", stage.scene.width, stage.scene.height,
               methodText(stage.scene).c_str(), planned.info.rect[2], planned.info.rect[3], planned.info.rect[0],
               planned.info.rect[1]);
-  std::printf("\npass                   work\n");
+
+  size_t name_width = std::strlen("together");
   for (const FlkPassInfo& pass : planned.passes) {
-    std::printf("  %-20s %s\n", pass.name, workOf(pass).c_str());
+    name_width = std::max(name_width, std::strlen(pass.name));
   }
-  std::printf("\nresource             bytes  held                  why\n");
-  std::printf("  %-11s %12s  as long as the hair   strands: positions, radii, indices\n", "hair",
-              readableBytes(planned.info.bytes_persistent).c_str());
   for (const FlkResourceInfo& resource : planned.resources) {
-    std::printf("  %-11s %12s  %-20s  %s\n", resource.name, readableBytes(resource.bytes).c_str(),
-                resource.transient ? "while a frame draws" : "as long as the view", resource.why);
+    name_width = std::max(name_width, std::strlen(resource.name));
   }
-  std::printf("  %-11s %12s\n", "together",
+  const int names = static_cast<int>(name_width);
+  std::printf("\n%-*s  %-20s  code\n", names + 2, "pass", "work");
+  for (const FlkPassInfo& pass : planned.passes) {
+    const std::string hash = hashText(pass.hash);
+    std::printf("  %-*s  %-*s%s\n", names, pass.name, hash.empty() ? 0 : 22, workOf(pass).c_str(), hash.c_str());
+  }
+  std::printf("\n%-*s  %12s  %-20s  why\n", names + 2, "resource", "bytes", "held");
+  const auto line = [&](const char* name, uint64_t bytes, const char* held, const char* why) {
+    std::printf("  %-*s  %12s  %-20s  %s\n", names, name, readableBytes(bytes).c_str(), held, why);
+  };
+  line("hair", planned.info.bytes_persistent, "as long as the hair", "strands: positions, radii, colours, indices");
+  for (const FlkResourceInfo& resource : planned.resources) {
+    line(resource.name, resource.bytes, resource.transient ? "while a frame draws" : "as long as the view", resource.why);
+  }
+  std::printf("  %-*s  %12s\n", names, "together",
               readableBytes(planned.info.bytes_persistent + planned.info.bytes_transient).c_str());
-  std::printf("\nlists hold %s fragments", groupedDigits(planned.info.node_capacity).c_str());
-  if (planned.info.full_shade_taps > 0) {
-    std::printf("; a full shade reads %u texels of the shadow map, a cheap one %u", planned.info.full_shade_taps,
-                planned.info.low_shade_taps);
+  if (planned.info.node_capacity > 0) {
+    std::printf("\nlists hold %s fragments\n", groupedDigits(planned.info.node_capacity).c_str());
   }
-  std::printf("\n");
+  if (planned.info.full_shade_taps + planned.info.low_shade_taps > 0) {
+    std::printf("%sof shadow maps a full shade reads %u texels, a cheap one %u\n",
+                planned.info.node_capacity > 0 ? "" : "\n", planned.info.full_shade_taps, planned.info.low_shade_taps);
+  }
   if (!planned.omissions.empty()) {
     std::printf("\nleft out\n");
     for (const std::string& omission : planned.omissions) {
@@ -88,10 +117,14 @@ void printJson(const Stage& stage, const Planned& planned) {
   for (const StagedAsset& asset : stage.assets) {
     json["assets"].push_back({{"source", asset.opened.label},
                               {"strands", asset.info.strand_count},
-                              {"segments", asset.info.vertex_count - asset.info.strand_count}});
+                              {"follow", asset.follow.count},
+                              {"segments", segmentsOf(asset)}});
   }
   json["size"] = {stage.scene.width, stage.scene.height};
   json["method"] = methodNames()[stage.scene.method];
+  json["tail"] = tailNames()[stage.scene.tail];
+  json["capture"] = captureNames()[stage.scene.capture];
+  json["lights"] = stage.scene.lights.size();
   json["show"] = displayNames()[stage.scene.display];
   json["rect"] = planned.info.rect;
   json["node_capacity"] = planned.info.node_capacity;
@@ -100,7 +133,7 @@ void printJson(const Stage& stage, const Planned& planned) {
   json["passes"] = nlohmann::ordered_json::array();
   for (const FlkPassInfo& pass : planned.passes) {
     json["passes"].push_back({{"name", pass.name}, {"stage", kStages[pass.stage]}, {"groups", pass.groups},
-                              {"indices", pass.indices}, {"segments", pass.segments}});
+                              {"indices", pass.indices}, {"segments", pass.segments}, {"hash", hashText(pass.hash)}});
   }
   json["resources"] = nlohmann::ordered_json::array();
   for (const FlkResourceInfo& resource : planned.resources) {
@@ -134,7 +167,7 @@ int runPlan(const CLI::App& command, const PlanArguments& arguments) {
   View view;
   check(create(context, viewDesc(), view));
 
-  StagedFrame staged(stage, stageCamera(stage, 0, 1), hairs, 1.0, stage.aspect());
+  StagedFrame staged(stage, stageCamera(stage, 0, 1), hairs, 1.0, stage.scene.width, stage.scene.height);
   FlkFrame& frame = staged.frame;
   frame.frame_number = 1;
   frame.timestamps = 0;

@@ -29,9 +29,12 @@ constexpr const char* kExamples =
     "  forelock preview pony.tfx -o pony.exr --size 1920x1080 --method exact     linear, half floats\n"
     "  forelock preview pony.tfx -o thin.png --width 0.08                        strands 80 um wide\n"
     "  forelock preview groom:paper-load -o load.png --camera 198k --no-head     a camera that the groom stores\n"
+    "  forelock preview pony.tfx -o dense.png --follow 8 --tip-color d8a860      eight more strands beside each\n"
+    "  forelock preview pony.tfx -o game.png --method hard                       opaque strands, no blending\n"
     "  forelock preview pony.tfx -o layers.png --color layers                    how many fragments a pixel has\n"
     "  forelock preview groom:long-wavy -o turn.png --turntable 12 --size 512x512\n"
-    "  forelock preview --scene scene.json -o scene.png --background 202428\n";
+    "  forelock preview --scene scene.json -o scene.png --background 202428\n\n"
+    "Several lights, a sky, a lens and images of the scalp: in scene files, docs/scene.md.\n";
 
 constexpr const char* kStages[FLK_STAGE_COUNT] = {"clear", "shadow", "capture", "resolve", "prepare", "output"};
 
@@ -102,6 +105,9 @@ void printJson(const PreviewArguments& arguments, const HeadlessHost& host, cons
   json["driver"] = host.driverName();
   json["size"] = {stage.scene.width, stage.scene.height};
   json["method"] = methodNames()[stage.scene.method];
+  json["tail"] = tailNames()[stage.scene.tail];
+  json["capture"] = captureNames()[stage.scene.capture];
+  json["lights"] = stage.scene.lights.size();
   json["show"] = displayNames()[stage.scene.display];
   json["exposure"] = picture.exposure;
   json["segments"] = picture.plan.segment_count;
@@ -153,9 +159,14 @@ void printText(const PreviewArguments& arguments, const HeadlessHost& host, cons
     std::printf("  %-11s %s\n", i == 0 ? "left out" : "", picture.omissions[i].c_str());
   }
   for (const StagedAsset& asset : stage.assets) {
-    if (!asset.info.has_radii && stage.scene.assets[0].width_mm <= 0.0) {
+    if (asset.follow.count > 0) {
+      std::printf("  strands     %u and %u follow strands beside each, within %.3g mm, of %s\n", asset.info.strand_count,
+                  asset.follow.count, 1e3 * static_cast<double>(asset.follow.radius), asset.opened.label.c_str());
+    }
+    const SceneAsset& wanted = stage.scene.assets[static_cast<size_t>(&asset - stage.assets.data())];
+    if (!asset.info.has_radii && wanted.width_mm <= 0.0) {
       std::printf("  width       %.3g mm: %s has none, so 80 um x max(1, 100,000 / strands); --width MM changes it\n",
-                  2e3 * static_cast<double>(asset.info.max_radius), asset.opened.label.c_str());
+                  asset.width_mm, asset.opened.label.c_str());
     }
   }
 }

@@ -26,6 +26,23 @@ void readSize(const std::string& text, Scene& scene) {
   scene.height = height;
 }
 
+void turnLight(const std::string& text, Scene& scene) {
+  double azimuth = 0.0, elevation = 0.0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf%c", &azimuth, &elevation, &rest) != 2 ||
+      !(std::abs(azimuth) <= 360.0 && std::abs(elevation) <= 90.0)) {
+    throw UsageError("--light is " + text +
+                     ", must be AZIMUTH,ELEVATION in degrees, [-360, 360] and [-90, 90], for example --light=-42,44");
+  }
+  const auto sun = std::find_if(scene.lights.begin(), scene.lights.end(),
+                                [](const SceneLight& light) { return light.kind == FLK_LIGHT_DIRECTIONAL; });
+  if (sun == scene.lights.end()) {
+    throw UsageError("--light turns the scene's first directional light, but it has none");
+  }
+  sun->azimuth_deg = azimuth;
+  sun->elevation_deg = elevation;
+}
+
 glm::dvec3 readColor(const char* option, const std::string& text) {
   glm::dvec3 linear;
   if (!parseHexColor(text, linear)) {
@@ -58,16 +75,21 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
   const char* look = "Look";
   command.add_option("--hair-color", arguments.hair_color, "sRGB, for example 6b4226, 2a1a12, c9a26b")
       ->type_name("HEX")->group(look);
+  command.add_option("--tip-color", arguments.tip_color, "sRGB that the hair's colour turns into towards the tips [none]")
+      ->type_name("HEX")->group(look);
+  command.add_option("--follow", arguments.follow,
+                     "Strands beside each strand of the asset, within 1 mm of it, to thicken thin guides [0]")
+      ->check(CLI::Range(0u, 1023u))->type_name("N")->group(look);
   command.add_option("--alpha", arguments.alpha, "Opacity of a pixel that a strand covers wholly [0.63]")
       ->check(CLI::Range(0.0, 1.0))->type_name("A")->group(look);
   command.add_option("--width", arguments.width_mm, "Diameter of the widest vertex, a unit being a metre [the asset's]")
       ->check(CLI::Range(1e-6, 1e6))->type_name("MM")->group(look);
-  command.add_option("--light", arguments.light, "Where light comes from, seen from the camera, degrees [-42,44]")
+  command.add_option("--light", arguments.light, "Where the directional light comes from, seen from the camera, degrees [-42,44]")
       ->type_name("AZ,EL")->group(look);
-  command.add_option("--exposure", arguments.exposure, "Radiance of the light [chosen from a small first picture]")
+  command.add_option("--exposure", arguments.exposure, "What all light is multiplied by [chosen from a small first picture]")
       ->check(CLI::Range(1e-6, 1e6))->type_name("X")->group(look);
   command.add_flag("--no-shadow", arguments.no_shadow, "Hair casts no shadow on itself")->group(look);
-  command.add_option("--shadow-size", arguments.shadow_size, "Texels of a side of the shadow map [2048]")
+  command.add_option("--shadow-size", arguments.shadow_size, "Texels of a side of a shadow map [2048]")
       ->check(CLI::Range(64u, 8192u))->type_name("N")->group(look);
   command.add_option("--background", arguments.background, "sRGB [transparent]")->type_name("HEX")->group(look);
   CLI::Option* head = command.add_flag("--head", arguments.head, "Draw the bust")->group(look);
@@ -79,12 +101,20 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
 
   const char* method = "Method (docs/methods.md section 6)";
   command.add_option("--method", arguments.method,
-                     "core_tail: the nearest k in full quality; exact: all; forward: all, shaded before sorting")
+                     "core_tail: the nearest k in full quality, the rest cheaply; exact: all in full quality and in order; "
+                     "forward: all, shaded before sorting; core_only: the rest hides but has no colour; all_low: all cheaply; "
+                     "hard: the nearest, opaque, no blending")
       ->check(given(methodNames()))->type_name("NAME")->group(method);
   command.add_option("--k", arguments.k, "Fragments a pixel shaded fully; 0: none [8]")
       ->check(CLI::Range(0u, 32u))->type_name("N")->group(method);
   command.add_option("--k-sort", arguments.k_sort, "Fragments a pixel in order [max(8, k)]")
       ->check(CLI::Range(1u, 32u))->type_name("N")->group(method);
+  command.add_option("--tail", arguments.tail,
+                     "Beyond the k-sort nearest: deterministic (a mean, the same from run to run), list (in order of arrival) "
+                     "[deterministic]")
+      ->check(given(tailNames()))->type_name("NAME")->group(method);
+  command.add_option("--capture", arguments.capture, "Who turns strands into fragments: raster, compute [raster]")
+      ->check(given(captureNames()))->type_name("NAME")->group(method);
   command.add_option("--payload", arguments.payload, "Coding of a stored fragment: default, paper")
       ->check(given(payloadNames()))->type_name("NAME")->group(method);
 }
@@ -118,22 +148,23 @@ Scene makeScene(const CLI::App& command, const SceneArguments& arguments) {
     if (asked("--hair-color")) {
       const glm::dvec3 color = readColor("--hair-color", arguments.hair_color);
       for (int i = 0; i < 3; ++i) asset.material.color[i] = static_cast<float>(color[i]);
+      asset.color_given = true;
     }
+    if (asked("--tip-color")) {
+      const glm::dvec3 color = readColor("--tip-color", arguments.tip_color);
+      for (int i = 0; i < 3; ++i) asset.material.tip_color[i] = static_cast<float>(color[i]);
+      if (asset.material.tip_blend == 0.0f) asset.material.tip_blend = 1.0f;
+    }
+    if (asked("--follow")) asset.follow.count = arguments.follow;
     if (asked("--alpha")) asset.material.opacity_root = asset.material.opacity_tip = static_cast<float>(arguments.alpha);
     if (asked("--width")) asset.width_mm = arguments.width_mm;
   }
-  if (asked("--light")) {
-    char rest = 0;
-    if (std::sscanf(arguments.light.c_str(), "%lf,%lf%c", &scene.light.azimuth_deg, &scene.light.elevation_deg,
-                    &rest) != 2 ||
-        !(std::abs(scene.light.azimuth_deg) <= 360.0 && std::abs(scene.light.elevation_deg) <= 90.0)) {
-      throw UsageError("--light is " + arguments.light +
-                       ", must be AZIMUTH,ELEVATION in degrees, [-360, 360] and [-90, 90], for example --light=-42,44");
-    }
-  }
+  if (asked("--light")) turnLight(arguments.light, scene);
   if (asked("--exposure")) scene.exposure = arguments.exposure;
-  if (asked("--no-shadow")) scene.light.shadow = false;
-  if (asked("--shadow-size")) scene.light.shadow_size = arguments.shadow_size - arguments.shadow_size % 2;
+  for (SceneLight& light : scene.lights) {
+    if (asked("--no-shadow")) light.shadow = false;
+    if (asked("--shadow-size")) light.shadow_size = arguments.shadow_size - arguments.shadow_size % 2;
+  }
   if (asked("--background")) scene.background = readColor("--background", arguments.background);
   if (asked("--head")) scene.head = true;
   if (asked("--no-head")) scene.head = false;
@@ -141,6 +172,8 @@ Scene makeScene(const CLI::App& command, const SceneArguments& arguments) {
   if (asked("--method")) scene.method = indexOf(methodNames(), arguments.method);
   if (asked("--k")) scene.k = arguments.k == 0 ? FLK_K_NONE : arguments.k;
   if (asked("--k-sort")) scene.k_sort = arguments.k_sort;
+  if (asked("--tail")) scene.tail = indexOf(tailNames(), arguments.tail);
+  if (asked("--capture")) scene.capture = indexOf(captureNames(), arguments.capture);
   if (asked("--payload")) scene.payload = indexOf(payloadNames(), arguments.payload);
   const uint32_t full = scene.k == FLK_K_NONE ? 0 : scene.k == 0 ? 8 : scene.k;
   if (scene.k_sort != 0 && scene.k_sort < full) {

@@ -3,6 +3,7 @@
 
 #include "bust.h"
 #include "commands.h"
+#include "image.h"
 #include "progress.h"
 
 #include <glm/geometric.hpp>
@@ -51,7 +52,9 @@ void collectSeen(Stage& stage) {
       }
       stage.seen.emplace_back(world);
     }
-    const double widest = static_cast<double>(asset.info.max_radius * asset.material.width_scale);
+    const double widest = static_cast<double>(asset.info.max_radius * asset.material.width_scale) +
+                          static_cast<double>(asset.follow.radius * std::max(asset.follow.spread_tip, 1.0f)) *
+                              (asset.follow.count > 0 ? 1.0 : 0.0);
     stage.radius = std::max(stage.radius, widest * std::cbrt(std::fabs(m[0] * (m[5] * m[10] - m[6] * m[9]) -
                                                                        m[1] * (m[4] * m[10] - m[6] * m[8]))));
   }
@@ -62,6 +65,73 @@ void collectSeen(Stage& stage) {
       stage.seen.emplace_back((corner & 1) ? high[0] : low[0], (corner & 2) ? high[1] : low[1],
                               (corner & 4) ? high[2] : low[2]);
     }
+  }
+}
+
+glm::dvec3 mean(const float* rgb, size_t count) {
+  glm::dvec3 sum(0.0);
+  for (size_t i = 0; i < count; ++i) {
+    sum += glm::dvec3(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]);
+  }
+  return sum / static_cast<double>(std::max<size_t>(count, 1));
+}
+
+void loadRootImage(const std::string& path, StagedAsset& asset) {
+  if (!asset.info.has_root_uvs) {
+    throw AssetError(FLK_ERROR_INVALID_ARGUMENT,
+                     asset.opened.label + ": has no root UVs, which root_image needs: .tfx files and grooms have them");
+  }
+  Image image;
+  try {
+    image = readImage(path);
+  } catch (const std::runtime_error& error) {
+    throw AssetError(FLK_ERROR_IO, path + ": " + error.what());
+  }
+  asset.root_pixels.resize(size_t{3} * image.width * image.height);
+  for (size_t i = 0; i < asset.root_pixels.size(); ++i) {
+    const float value = image.rgba[i / 3 * 4 + i % 3];
+    asset.root_pixels[i] = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+  }
+  asset.root_image = {asset.root_pixels.data(), image.width, image.height};
+}
+
+// What an asset looks like by itself and by what the scene wants of it.
+void stageLook(const SceneAsset& wanted, StagedAsset& asset) {
+  asset.material = wanted.material;
+  asset.follow = {wanted.follow.count, static_cast<float>(wanted.follow.radius_mm * 1e-3),
+                  static_cast<float>(wanted.follow.spread_tip), wanted.follow.seed};
+  asset.flags = wanted.ignore_colors ? FLK_HAIR_IGNORE_COLORS : 0;
+  double scale = static_cast<double>(asset.material.width_scale);
+  const double diameter_mm = 2e3 * static_cast<double>(asset.info.max_radius);
+  if (wanted.width_mm > 0.0) {
+    scale = std::min(wanted.width_mm / diameter_mm, 1e6);
+  } else if (!asset.info.has_radii) {
+    // The default width is for so many strands: with follow strands there are more.
+    const double strands = static_cast<double>(asset.info.strand_count);
+    const double all = strands * (1.0 + static_cast<double>(wanted.follow.count));
+    scale *= std::max(1.0, 1e5 / all) / std::max(1.0, 1e5 / strands);
+  }
+  asset.material.width_scale = static_cast<float>(scale);
+  asset.width_mm = diameter_mm * scale;
+
+  FlkStrands strands = {};
+  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  const bool own_colors = strands.colors && !wanted.ignore_colors;
+  if (!wanted.root_image.empty()) {
+    loadRootImage(wanted.root_image, asset);
+  }
+  if (!wanted.color_given && (own_colors || asset.root_image.width > 0)) {
+    std::fill(asset.material.color, asset.material.color + 3, 1.0f);
+  }
+  const FlkMaterial& m = asset.material;
+  const double tip = 0.5 * static_cast<double>(m.tip_blend);
+  asset.reflectance = glm::mix(glm::dvec3(m.color[0], m.color[1], m.color[2]),
+                               glm::dvec3(m.tip_color[0], m.tip_color[1], m.tip_color[2]), tip);
+  if (own_colors) {
+    asset.reflectance *= mean(strands.colors, strands.vertex_count);
+  }
+  if (asset.root_image.width > 0) {
+    asset.reflectance *= mean(asset.root_pixels.data(), asset.root_pixels.size() / 3);
   }
 }
 
@@ -81,11 +151,7 @@ Stage openStage(const Scene& scene) {
     }
     printMessages(*asset.opened.messages, false);
     flkAssetGetInfo(asset.opened.asset.get(), &asset.info);
-    asset.material = wanted.material;
-    if (wanted.width_mm > 0.0) {
-      asset.material.width_scale =
-          static_cast<float>(std::min(wanted.width_mm * 0.5e-3 / static_cast<double>(asset.info.max_radius), 1e6));
-    }
+    stageLook(wanted, asset);
     placeAsset(wanted, scene.camera.up, asset.world_from_hair);
     on_bust = on_bust || (asset.opened.recipe && asset.opened.recipe->drape_on_bust);
   }
@@ -154,17 +220,33 @@ Camera stageCamera(const Stage& stage, uint32_t turn, uint32_t turns) {
   return camera;
 }
 
-glm::dvec3 stageLight(const Stage& stage, const Camera& camera) {
-  const double azimuth = stage.scene.light.azimuth_deg * kDegree, elevation = stage.scene.light.elevation_deg * kDegree;
+glm::dvec3 towardsLight(const SceneLight& light, const Camera& camera) {
+  if (light.kind != FLK_LIGHT_DIRECTIONAL) {
+    return light.kind == FLK_LIGHT_SPOT ? glm::normalize(light.position - light.target) : glm::dvec3(0.0);
+  }
+  const double azimuth = light.azimuth_deg * kDegree, elevation = light.elevation_deg * kDegree;
   const CameraBasis basis = cameraBasis(camera);
   return basis.right * (std::sin(azimuth) * std::cos(elevation)) + basis.up * std::sin(elevation) +
          basis.back * (std::cos(azimuth) * std::cos(elevation));
+}
+
+bool stageHarmonics(const Stage& stage, Harmonics& harmonics) {
+  const Scene& scene = stage.scene;
+  if (scene.sky) {
+    harmonics = skyHarmonics(*scene.sky, scene.camera.up == UpAxis::Z ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0));
+  } else if (scene.ambient_sh) {
+    harmonics = *scene.ambient_sh;
+  }
+  return scene.sky || scene.ambient_sh;
 }
 
 FlkHairDesc stagedHairDesc(const StagedAsset& asset) {
   FlkHairDesc desc = hairDesc();
   desc.asset = asset.opened.asset.get();
   desc.material = &asset.material;
+  desc.flags = asset.flags;
+  desc.follow = asset.follow;
+  desc.root_image = asset.root_image.width > 0 ? &asset.root_image : nullptr;
   return desc;
 }
 
@@ -182,47 +264,94 @@ std::vector<Hair> planHairs(FlkContext context, const Stage& stage) {
 }
 
 StagedFrame::StagedFrame(const Stage& stage, const Camera& camera, const std::vector<Hair>& hairs, double exposure,
-                         double aspect)
-    : frame(frameDesc()), light{} {
+                         uint32_t width, uint32_t height)
+    : frame(frameDesc()), ambient_sh{}, modifiers{} {
   const Scene& scene = stage.scene;
-  const glm::dvec3 to_light = stageLight(stage, camera);
+  for (const SceneLight& wanted : scene.lights) {
+    FlkLight& light = lights.emplace_back();
+    light.kind = wanted.kind;
+    const glm::dvec3 towards = towardsLight(wanted, camera);
+    for (int i = 0; i < 3; ++i) {
+      light.direction[i] = static_cast<float>(towards[i]);
+      light.radiance[i] = static_cast<float>(wanted.color[i] * wanted.intensity * exposure);
+      light.position[i] = wanted.position[i];
+    }
+    light.range = static_cast<float>(wanted.range_m);
+    light.source_radius = static_cast<float>(wanted.source_radius_mm * 1e-3);
+    light.inner_angle = static_cast<float>(wanted.inner_angle_deg * kDegree);
+    light.outer_angle = static_cast<float>(wanted.outer_angle_deg * kDegree);
+    light.casts_shadow = wanted.shadow ? 1 : 0;
+    light.shadow_size = wanted.shadow_size;
+  }
+  Harmonics harmonics;
+  if (stageHarmonics(stage, harmonics)) {
+    for (size_t i = 0; i < 27; ++i) {
+      ambient_sh[i] = static_cast<float>(harmonics[i / 3][static_cast<int>(i % 3)] * exposure);
+    }
+    frame.ambient_sh = ambient_sh;
+  }
+  if (scene.near_fade) {
+    FlkOpacityModifier& fade = modifiers[frame.opacity_modifier_count++];
+    fade.kind = FLK_OPACITY_NEAR_FADE;
+    fade.start = static_cast<float>(scene.near_fade->start_m);
+    fade.end = static_cast<float>(scene.near_fade->end_m);
+  }
+  if (scene.lens) {
+    FlkOpacityModifier& lens = modifiers[frame.opacity_modifier_count++];
+    lens.kind = FLK_OPACITY_LENS;
+    lens.center[0] = static_cast<float>(scene.lens->center[0] * width);
+    lens.center[1] = static_cast<float>(scene.lens->center[1] * height);
+    lens.radius = static_cast<float>(scene.lens->radius * height);
+    lens.feather = static_cast<float>(scene.lens->feather * height);
+    lens.inside = static_cast<float>(scene.lens->inside);
+  }
+  frame.opacity_modifiers = modifiers;
   for (int i = 0; i < 3; ++i) {
-    light.direction[i] = static_cast<float>(to_light[i]);
-    light.radiance[i] = static_cast<float>(scene.light.color[i] * exposure);
     frame.ambient[i] = static_cast<float>(scene.ambient[i] * exposure);
   }
-  light.casts_shadow = scene.light.shadow ? 1 : 0;
-  light.shadow_size = scene.light.shadow_size;
   for (const Hair& hair : hairs) {
     handles.push_back(hair);
   }
   viewMatrix(camera, frame.view_from_world);
-  projectionMatrix(camera, aspect, frame.clip_from_view);
+  projectionMatrix(camera, stage.aspect(), frame.clip_from_view);
   frame.reversed_depth = camera.reversed_depth ? 1 : 0;
   frame.hairs = handles.data();
   frame.hair_count = static_cast<uint32_t>(handles.size());
-  frame.lights = &light;
-  frame.light_count = 1;
+  frame.lights = lights.data();
+  frame.light_count = static_cast<uint32_t>(lights.size());
   frame.method = scene.method;
   frame.k = scene.k;
   frame.k_sort = scene.k_sort;
   frame.payload = scene.payload;
   frame.display = scene.display;
+  frame.tail = scene.tail;
+  frame.capture = scene.capture;
   frame.timestamps = 1;
 }
 
 std::string methodText(const Scene& scene) {
-  const std::string payload = scene.payload == FLK_PAYLOAD_PAPER ? ", payload of the paper" : "";
+  const std::string capture = scene.capture == FLK_CAPTURE_DEFAULT ? "" : ", capture by " + captureNames()[scene.capture];
   if (scene.display != FLK_DISPLAY_SHADED) {
-    return "colours show " + displayNames()[scene.display];
+    return "colours show " + displayNames()[scene.display] + capture;
   }
-  if (scene.method == FLK_METHOD_EXACT) {
-    return "exact" + payload;
-  }
+  std::string text = methodNames()[scene.method];
   const uint32_t k = scene.k == FLK_K_NONE ? 0 : scene.k == 0 ? 8 : scene.k;
   const uint32_t k_sort = scene.k_sort == 0 ? std::max(8u, k) : scene.k_sort;
-  const std::string shaded = scene.method == FLK_METHOD_CORE_TAIL ? ", k " + std::to_string(k) : "";
-  return methodNames()[scene.method] + shaded + ", k_sort " + std::to_string(k_sort) + payload;
+  const bool has_core = scene.method == FLK_METHOD_CORE_TAIL || scene.method == FLK_METHOD_CORE_ONLY;
+  const bool has_tail = scene.method == FLK_METHOD_CORE_TAIL || scene.method == FLK_METHOD_ALL_LOW;
+  if (has_core) {
+    text += ", k " + std::to_string(k);
+  }
+  if (has_core || has_tail || scene.method == FLK_METHOD_FORWARD) {
+    text += ", k_sort " + std::to_string(k_sort);
+  }
+  if (has_tail && scene.tail == FLK_TAIL_LIST) {
+    text += ", tail in list order";
+  }
+  if (scene.payload == FLK_PAYLOAD_PAPER && scene.method != FLK_METHOD_HARD) {
+    text += ", payload of the paper";
+  }
+  return text + capture;
 }
 
 }  // namespace forelock::samples

@@ -14,7 +14,13 @@ namespace forelock::samples {
 struct StagedAsset {
   OpenedAsset opened;
   FlkAssetInfo info;
-  FlkMaterial material;       // with the width that was asked for
+  FlkMaterial material;       // with the width and colour that were asked for
+  FlkFollowStrands follow;
+  uint32_t flags = 0;         // FLK_HAIR_...
+  std::vector<float> root_pixels;  // what root_image reads
+  FlkRootImage root_image{};       // width 0: none
+  glm::dvec3 reflectance{0.0};     // mean of the fibres', linear
+  double width_mm = 0.0;           // diameter of the widest vertex as drawn, a unit being a metre
   double world_from_hair[16];
 };
 
@@ -33,8 +39,11 @@ Stage openStage(const Scene& scene);
 // View `turn` of `turns` around the hair.
 Camera stageCamera(const Stage& stage, uint32_t turn, uint32_t turns);
 
-// Unit vector to the light in world space.
-glm::dvec3 stageLight(const Stage& stage, const Camera& camera);
+// Unit vector to a directional light in world space, of a spot against its axis; of a point light none.
+glm::dvec3 towardsLight(const SceneLight& light, const Camera& camera);
+
+// The sky's or the scene's own coefficients, before exposure; false: the scene has none.
+bool stageHarmonics(const Stage& stage, Harmonics& harmonics);
 
 // Hairs of the stage's assets in a context that plans.
 std::vector<Hair> planHairs(FlkContext context, const Stage& stage);
@@ -42,16 +51,20 @@ FlkHairDesc stagedHairDesc(const StagedAsset& asset);
 
 // One frame: everything but target, depth and numbers. Its pointers live as long as the object, which must not move.
 struct StagedFrame {
-  StagedFrame(const Stage& stage, const Camera& camera, const std::vector<Hair>& hairs, double exposure, double aspect);
+  // `width` and `height` are the picture's, which may be a reduced one of the stage's.
+  StagedFrame(const Stage& stage, const Camera& camera, const std::vector<Hair>& hairs, double exposure, uint32_t width,
+              uint32_t height);
   StagedFrame(const StagedFrame&) = delete;
   StagedFrame& operator=(const StagedFrame&) = delete;
 
   FlkFrame frame;
-  FlkLight light;
+  std::vector<FlkLight> lights;
+  float ambient_sh[27];
+  FlkOpacityModifier modifiers[2];
   std::vector<FlkHair> handles;
 };
 
-// "core_tail, k 8, k_sort 8" as the frame will use it.
+// "core_tail, k 8, k_sort 8" as the frame will use it, and what is not the default.
 std::string methodText(const Scene& scene);
 
 }  // namespace forelock::samples

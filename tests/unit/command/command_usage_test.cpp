@@ -40,6 +40,10 @@ TEST(CommandUsage, WrongUsageIsTwo) {
   expectComplaint(runCommand("plan x.tfx --size 12"), 2, "--size is 12, must be WIDTHxHEIGHT");
   expectComplaint(runCommand("plan x.tfx --size 1x20000"), 2, "[1, 16384]");
   expectComplaint(runCommand("plan x.tfx --method best"), 2, "core_tail");
+  expectComplaint(runCommand("plan x.tfx --tail short"), 2, "list");
+  expectComplaint(runCommand("plan x.tfx --capture rays"), 2, "compute");
+  expectComplaint(runCommand("plan x.tfx --follow 1024"), 2, "--follow");
+  expectComplaint(runCommand("plan x.tfx --tip-color blond"), 2, "--tip-color is blond");
   expectComplaint(runCommand("plan x.tfx --light 10"), 2, "--light is 10");
   expectComplaint(runCommand("plan x.tfx --light=10,100"), 2, "[-90, 90]");
   expectComplaint(runCommand("plan x.tfx --hair-color brown"), 2, "--hair-color is brown");
@@ -58,6 +62,40 @@ TEST(CommandUsage, WhatIsWrongWithAnAssetIsOne) {
       writeScratch("wrong.json", R"({"assets": [{"source": "a.tfx"}], "light": {"elevation": 120}})");
   expectComplaint(runCommand("plan --scene \"" + scene + "\""), 1,
                   "wrong.json: light.elevation is 120, must be a number in [-90, 90] degrees");
+}
+
+TEST(CommandUsage, LightTurnsOnlyWhatHasADirection) {
+  const std::string scene = writeScratch(
+      "lamp.json", R"({"assets": [{"source": "small.json"}], "lights": [{"kind": "point", "position": [0, 0, 1]}]})");
+  smallRecipe();
+  expectComplaint(runCommand("plan --scene \"" + scene + "\" --light=10,20"), 2, "no");
+  EXPECT_EQ(runCommand("plan --scene \"" + scene + "\"").status, 0);
+}
+
+TEST(CommandUsage, RootImagesNeedAFileAndRootUvs) {
+  const std::string folder = forelock::test::scratchFolder().string();
+  smallRecipe();
+  // 2 x 1 pixels, red and a grey of 128.
+  const std::string png(
+      "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x02\x00\x00\x00\x01\x08\x02"
+      "\x00\x00\x00\x7b\x40\xe8\xdd\x00\x00\x00\x0f\x49\x44\x41\x54\x78\x9c\x63\xf8\xcf\xc0\xd0\xd0\xd0\x00\x00"
+      "\x09\x01\x02\x80\x99\xc4\x69\x32\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60\x82",
+      72);
+  writeScratch("scalp.png", png);
+  writeScratch("broken.png", png.substr(0, 40));
+  const auto planned = [&](const std::string& source, const std::string& image) {
+    return runCommand("plan --scene \"" + writeScratch("root.json", "{\"assets\": [{\"source\": \"" + source +
+                                                                       "\", \"root_image\": \"" + image + "\"}]}") + "\"");
+  };
+  const CommandRun good = planned("small.json", "scalp.png");
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_NE(good.out.find("16 bytes for each fragment"), std::string::npos) << "colours vary from strand to strand";
+  expectComplaint(planned("small.json", "nowhere.png"), 1, "nowhere.png: cannot be read as a picture");
+  expectComplaint(planned("small.json", "broken.png"), 1, "broken.png: cannot be read as a picture");
+  expectComplaint(planned("small.json", "small.json"), 1, "small.json: no picture that can be read");
+  const std::string bare = folder + "/bare.hair";
+  ASSERT_EQ(runCommand("convert \"" + smallRecipe() + "\" \"" + bare + "\"").status, 0);
+  expectComplaint(planned("bare.hair", "scalp.png"), 1, "bare.hair: has no root UVs");
 }
 
 TEST(CommandUsage, NoDeviceIsThree) {

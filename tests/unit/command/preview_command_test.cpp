@@ -8,6 +8,7 @@ using forelock::test::readAll;
 using forelock::test::runCommand;
 using forelock::test::scratchFolder;
 using forelock::test::smallRecipe;
+using forelock::test::writeScratch;
 
 namespace {
 
@@ -51,11 +52,31 @@ TEST(PreviewCommand, SameCommandSamePicture) {
 TEST(PreviewCommand, EveryColorModeMethodAndFormat) {
   for (const char* more : {"--color strand", "--color root-tip", "--color width", "--color depth", "--color layers",
                            "--method forward", "--method forward --payload paper", "--k 0", "--no-shadow",
+                           "--method core_only", "--method all_low --tail list", "--method hard --tip-color d8a860",
+                           "--capture compute --follow 2",
                            "--hair-color 101010 --alpha 1 --width 2 --light=60,20 --background ffffff --up z"}) {
     const nlohmann::json said = previewOf("mode.exr", smallRecipe() + " --size 48x48 " + more);
     ASSERT_TRUE(said.is_object()) << more;
     EXPECT_GT(said.at("hair_pixels"), 0) << more;
   }
+}
+
+TEST(PreviewCommand, LightsSkyLensAndScalp) {
+  smallRecipe();
+  const std::string scene = writeScratch("lit.json", R"({"assets": [{"source": "small.json", "scale": 1}], "size": [48, 48],
+      "lights": [{"kind": "point", "position": [0.3, 0, 0.3], "intensity": 0.1, "shadow_size": 128},
+                 {"kind": "point", "position": [0, 0, 0.05], "intensity": 0.001, "shadow_size": 64},
+                 {"kind": "spot", "position": [-0.4, 0.6, -0.6], "color": "#9fc6ff", "shadow_size": 128},
+                 {"azimuth": 120, "shadow_size": 128}],
+      "sky": {"top": "#ffffff", "bottom": "#000000"}, "near_fade": {"end_m": 0.1},
+      "lens": {"center": [0.5, 0.4], "inside": 0}})");
+  const nlohmann::json with = previewOf("lit.png", "--head --scene " + scene);
+  ASSERT_TRUE(with.is_object());
+  EXPECT_EQ(with.at("lights"), 4);
+  EXPECT_GT(with.at("hair_pixels"), 0);
+  const std::string dark = writeScratch("unlit.json", R"({"assets": [{"source": "small.json"}], "size": [48, 48],
+      "lights": [], "ambient": [0, 0, 0]})");
+  EXPECT_TRUE(previewOf("unlit.png", "--scene " + dark).is_object()) << "black, but no failure";
 }
 
 TEST(PreviewCommand, TurntableWritesViewsAndSheet) {

@@ -51,6 +51,24 @@ TEST(SampleImage, PngAndExrAreWritten) {
   }
 }
 
+TEST(SampleImage, ReadsBackWhatIsWritten) {
+  Image image(3, 2);
+  for (size_t i = 0; i < image.rgba.size(); ++i) {
+    image.rgba[i] = i % 4 == 3 ? 1.0f : static_cast<float>(i) / 32.0f;
+  }
+  for (const char* name : {"forelock_image_test.png", "forelock_image_test.exr"}) {
+    const std::string path = temporary(name);
+    writeImage(path, image);
+    const Image read = readImage(path);
+    std::remove(path.c_str());
+    ASSERT_EQ(read.width, 3u);
+    ASSERT_EQ(read.height, 2u);
+    for (size_t i = 0; i < image.rgba.size(); ++i) {
+      EXPECT_NEAR(read.rgba[i], image.rgba[i], 0.005f) << name << " " << i;  // half a step of sRGB near 1
+    }
+  }
+}
+
 TEST(SampleImage, OverKeepsOpaqueAndShowsBackground) {
   Image image(2, 1);
   const float red[4] = {1.0f, 0.0f, 0.0f, 1.0f};
@@ -65,6 +83,8 @@ TEST(SampleImage, OverKeepsOpaqueAndShowsBackground) {
 TEST(SampleImage, FailuresAreExceptions) {
   EXPECT_THROW(writeImage("/nonexistent/folder/a.png", Image(1, 1)), std::runtime_error);
   EXPECT_THROW(writeImage("/nonexistent/folder/a.pfm", Image(1, 1)), std::runtime_error);
+  EXPECT_THROW(readImage("/nonexistent/a.png"), std::runtime_error);
+  EXPECT_THROW(readImage("/nonexistent/a.jpg"), std::runtime_error);
   EXPECT_THROW(writeImage(temporary("a.jpg"), Image(1, 1)), std::runtime_error);
 }
 

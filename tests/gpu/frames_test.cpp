@@ -222,6 +222,78 @@ TEST(Outputs, MatchTheReference) {
   }
 }
 
+// A host that shades its head with hair's shadow through flkViewGetShadowMap, as render.h describes it, against the reference's
+// attenuation by the same maps at the same points, and the maps against the reference's. (The head's shadow on hair: features_test.cpp, "host shadow".)
+TEST(Shadow, OfHairOnTheHead) {
+  const ViewSpec view = frameStrands(tuft(), 256, 256);
+  FlkLight lamp = sunFrom(0.3, 0.9, 0.3, 3, 512), amid = lamp;
+  lamp.kind = amid.kind = FLK_LIGHT_POINT;
+  const double middle[3] = {view.target.x, view.target.y, view.target.z};
+  for (int i = 0; i < 3; ++i)
+    lamp.position[i] = middle[i] + 0.6 * double(lamp.direction[i]), amid.position[i] = middle[i] + 0.02 * i;
+  for (const uint32_t capture : {FLK_CAPTURE_RASTER, FLK_CAPTURE_COMPUTE}) {
+    World world(view);
+    world.add(specOf(tuft(), view, 1.0));
+    world.addLight(sunFrom(-0.1, 0.7, 0.7, 3, 512));
+    world.addLight(lamp);
+    world.addLight(amid);
+    FlkFrame frame = world.frame();
+    frame.capture = capture;
+    world.render(frame);
+    const auto fed = world.readMaps(), own = world.ownMaps();
+    const reference::Material& material = world.twin.hairs[0].material;
+    for (uint32_t light = 0; light < 3; ++light) {
+      std::vector<FlkShadowMap> maps;
+      std::vector<std::vector<float>> values;
+      for (uint32_t face = 0; maps.empty() || face < maps[0].face_count; ++face) {
+        maps.emplace_back();
+        ASSERT_EQ(flkViewGetShadowMap(world.view, light, face, &maps.back()), FLK_SUCCESS);
+        values.push_back(host().readShadowMap(maps.back()));
+      }
+      double square = 0, darkest = 1, points = 0;
+      for (int j = 1; j < 60; ++j)
+        for (int i = 0; i < 120; ++i) {  // a sphere for a head
+          const double a = i * 0.05236, b = j * 0.05236, r = 0.095;
+          const double p[3] = {middle[0] + r * std::sin(b) * std::cos(a), middle[1] + r * std::cos(b), middle[2] + r * std::sin(b) * std::sin(a)};
+          // The face with the largest distance along its axis; then one tap.
+          double best = -1e30, at[4] = {};
+          std::size_t face = 0;
+          for (std::size_t f = 0; f < maps.size(); ++f) {
+            double t[4];
+            for (int row = 0; row < 4; ++row)
+              t[row] = maps[f].texels_from_world[row] * p[0] + maps[f].texels_from_world[4 + row] * p[1] +
+                       maps[f].texels_from_world[8 + row] * p[2] + maps[f].texels_from_world[12 + row];
+            if (t[2] > best) best = t[2], face = f, std::copy(t, t + 4, at);
+          }
+          const FlkShadowMap& map = maps[face];
+          double distance = at[2];
+          if (map.perspective) {
+            at[0] /= at[3], at[1] /= at[3];
+            const double* q = world.lights[light].position;
+            distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+          }
+          double lit = 1;
+          const double x = std::floor(at[0]), y = std::floor(at[1]);
+          if (x >= 0 && y >= 0 && x < map.size && y < map.size) {
+            const float value = values[face][std::size_t(y) * map.size + std::size_t(x)];
+            if (value < 1) lit = reference::shadowTap(distance, double(value) * double(map.depth_range), 0, material.shadow_opacity, material.fibre_spacing);
+          }
+          const double expected = reference::shadowLight(fed[light].faces, material, {p[0], p[1], p[2]}, {}, false);
+          square += (lit - expected) * (lit - expected), points += 1;
+          darkest = std::min(darkest, expected);
+        }
+      const double rmse = 255 * std::sqrt(square / points);
+      std::printf("ROW hair's shadow on the head, light %u, %s: rmse %.3f codes over %.0f points, darkest %.4f\n", light,
+                  capture == FLK_CAPTURE_COMPUTE ? "compute" : "raster", rmse, points, darkest);
+      EXPECT_LE(rmse, 1.5);
+      EXPECT_LT(darkest, 0.5);
+      for (std::size_t face = 0; face < own[light].faces.size(); ++face) {
+        EXPECT_LE(mapDifference(own[light].faces[face], fed[light].faces[face], 0.1 * material.fibre_spacing), 0.5);
+      }
+    }
+  }
+}
+
 // 63 hairs of one view, each with its own material and place.
 TEST(Hairs, SixtyThreeInOneView) {
   ViewSpec view = frameStrands(tuft(), 256, 256);

@@ -8,7 +8,9 @@ vec3 unitOrZero(vec3 v) {
   if (!(largest > 0.0) || isinf(largest)) return vec3(0.0);  // also NaN
   // Every implementation may flush denormals: 1e-37 is the last length that surely divides.
   if (largest < 1e-37) return vec3(0.0);
-  vec3 scaled = v / largest;
+  // A GPU may divide by a reciprocal, which denormals away beyond 8e37 and is infinite below 3e-39: both are far off after this.
+  vec3 near_one = v * (largest > 1.0 ? 5.421010862e-20 : 1.844674407e19);  // 2^-64, 2^64
+  vec3 scaled = near_one / max(abs(near_one.x), max(abs(near_one.y), abs(near_one.z)));
   if (any(isnan(scaled))) return vec3(0.0);
   return scaled * inversesqrt(dot(scaled, scaled));
 }

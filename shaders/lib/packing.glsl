@@ -23,7 +23,8 @@ vec3 octDecode(uint code, int bits) {
   vec2 p = vec2(float(code & mask), float(code >> bits & mask)) / steps * 2.0 - 1.0;
   vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
   if (v.z < 0.0) v.xy = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-  return normalize(v);  // |v| >= 1/sqrt(3)
+  float square = dot(v, v);  // >= 1/3; exactly 1 on the axes, which an approximate root would miss
+  return square == 1.0 ? v : v * inversesqrt(square);
 }
 
 // Alpha in [0,1] to a code; 0: the fragment is dropped.

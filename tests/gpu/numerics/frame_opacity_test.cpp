@@ -297,6 +297,10 @@ TEST(Blend, RoundOff) {
     const reference::FragmentLists lists = reference::gatherFragments(scene.reference_scene, scene.camera, coded);
     for (const MethodWay& way : kMethodWays) {
       if (way.method == FLK_METHOD_FORWARD) continue;  // its colours have 8 bits: methods_test
+      // The twin of list order takes fragments to arrive as they are submitted, which a GPU does not promise.
+      if (way.order == reference::TailOrder::list && way.twin == reference::Method::core_tail &&
+          host().deviceType() != VK_PHYSICAL_DEVICE_TYPE_CPU)
+        continue;
       const reference::Image actual = scene.toImage(scene.render(frameOf(way, FLK_CAPTURE_RASTER)));
       reference::ResolveOptions options;
       options.method = way.twin, options.tail = way.order;

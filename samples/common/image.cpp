@@ -30,6 +30,9 @@ uint8_t toSrgb(float linear) {
   return static_cast<uint8_t>(encoded * 255.0f + 0.5f);
 }
 
+// What the library says, without its further lines.
+std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
 float fromSrgb(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
 
 void writePfm(const std::string& path, const Image& image) {
@@ -110,7 +113,7 @@ Image readImage(const std::string& path) {
   }
   const auto input = OIIO::ImageInput::open(path);
   if (!input) {
-    throw std::runtime_error("cannot be read as a picture: " + OIIO::geterror());
+    throw std::runtime_error("cannot be read as a picture: " + firstLine(OIIO::geterror()));
   }
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.width > 16384 || spec.height > 16384 || spec.nchannels < 1) {
@@ -124,7 +127,7 @@ Image readImage(const std::string& path) {
   const size_t colors = channels >= 3 ? 3 : 1;
   const bool has_alpha = channels > colors;
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) {
-    throw std::runtime_error("cannot be read as a picture: " + input->geterror());
+    throw std::runtime_error("cannot be read as a picture: " + firstLine(input->geterror()));
   }
   for (size_t i = 0; i < pixels; ++i) {
     const float* from = &values[channels * i];

@@ -446,6 +446,9 @@ const std::string& HeadlessHost::deviceName() const { return impl_->device_name;
 const std::string& HeadlessHost::driverName() const { return impl_->driver_name; }
 VkPhysicalDeviceType HeadlessHost::deviceType() const { return impl_->type; }
 FlkContext HeadlessHost::context() const { return impl_->context; }
+HeadlessHost::Device HeadlessHost::device() const {
+  return {impl_->get_instance_proc_addr, impl_->instance, impl_->physical_device, impl_->device};
+}
 std::vector<std::string>& HeadlessHost::validationMessages() { return impl_->validation; }
 std::vector<std::string>& HeadlessHost::messages() { return impl_->messages; }
 

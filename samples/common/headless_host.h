@@ -31,6 +31,14 @@ public:
   const std::string& driverName() const;
   VkPhysicalDeviceType deviceType() const;
   FlkContext context() const;
+  // For work of the caller's own on the same device.
+  struct Device {
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr;
+    VkInstance instance;
+    VkPhysicalDevice physical_device;
+    VkDevice device;
+  };
+  Device device() const;
   // What the validation layers and Forelock's message callback have said.
   std::vector<std::string>& validationMessages();
   std::vector<std::string>& messages();

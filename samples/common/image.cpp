@@ -30,9 +30,6 @@ uint8_t toSrgb(float linear) {
   return static_cast<uint8_t>(encoded * 255.0f + 0.5f);
 }
 
-// What the library says, without its further lines.
-std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
-
 float fromSrgb(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
 
 void writePfm(const std::string& path, const Image& image) {
@@ -86,6 +83,9 @@ void writeThroughLibrary(const std::string& path, const Image& image, bool is_pn
     throw std::runtime_error(output->geterror());
   }
 }
+
+// What the library says may go on for lines.
+std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
 

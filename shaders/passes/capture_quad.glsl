@@ -35,7 +35,7 @@ void captureQuad(SegmentShape shape, uvec2 pixel, bool live) {
   if (kStore == FLK_STORE_HARD_DEPTH || kStore == FLK_STORE_HARD_PAYLOAD) {
     bool inside = insideHard(center, shape.axis, shape.lines, shape.extent, shape.direction, shape.tangent_b.w);
     if (!live || !inside || modifiers < 0.5 || behindHostDepth(pixel, f.depth)) return;
-    vec3 fibre = kColor ? mix(shape.color_a, shape.color_b, f.along) : vec3(0.0);
+    vec3 fibre = kColor ? fibreColor(shape, f.along, f.fraction) : vec3(0.0);
     storeHard(pixel, f.depth, packHard(f.tangent, hair_slot), kColor ? packSharedExponent(fibre) : 0u);
     return;
   }
@@ -50,21 +50,21 @@ void captureQuad(SegmentShape shape, uvec2 pixel, bool live) {
   uint code = alphaCodeTangent(alpha, kPayload);
 #endif
   if (!live || code == 0u || behindHostDepth(pixel, f.depth)) return;
-  vec3 fibre = kColor ? mix(shape.color_a, shape.color_b, f.along) : frame.hairs[hair_slot].color;
+  vec3 fibre = kColor ? fibreColor(shape, f.along, f.fraction) : frame.hairs[hair_slot].color;
 #if defined(FLK_CAPTURE_FORWARD)
   if (kStore == FLK_STORE_COUNT) { countFragment(); return; }
-  vec3 color = radianceFull(frame.hairs[hair_slot], fibre, frameLight(), f.tangent, pixelRay(at), f.depth, pixel);
+  vec3 color = radianceFull(frame.hairs[hair_slot], fibre, frameLight(pixel), f.tangent, pixelRay(at), f.depth, pixel);
   addWork();
-  storeFragment(pixel, f.depth, packColor(color, code, frame.color_range, kPayload), 0u, alpha, color);
+  storeFragment(pixel, f.depth, f.tangent, packColor(color, code, frame.color_range, kPayload), 0u, alpha, color);
 #elif defined(FLK_CAPTURE_DISPLAY)
   vec3 color = vec3(1.0);
   if (kDisplay == FLK_SHOW_STRAND) color = strandColor(uint(shape.tangent_a.w));
   else if (kDisplay == FLK_SHOW_ROOT_TIP) color = rootTipColor(f.fraction);
   else if (kDisplay == FLK_SHOW_WIDTH) color = widthColor(f.width_px);
   else if (kDisplay == FLK_SHOW_DEPTH) color = depthColor(f.depth, frame.depth_range);
-  storeFragment(pixel, f.depth, packColor(color, code, frame.color_range, FLK_CODING_DEFAULT), 0u, alpha, color);
+  storeFragment(pixel, f.depth, f.tangent, packColor(color, code, frame.color_range, FLK_CODING_DEFAULT), 0u, alpha, color);
 #else
-  storeFragment(pixel, f.depth, packTangent(f.tangent, code, kPayload), kColor ? packSharedExponent(fibre) : 0u, alpha, vec3(0.0));
+  storeFragment(pixel, f.depth, f.tangent, packTangent(f.tangent, code, kPayload), kColor ? packSharedExponent(fibre) : 0u, alpha, vec3(0.0));
 #endif
 }
 

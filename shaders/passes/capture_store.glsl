@@ -33,7 +33,7 @@ uint pixelIndex(uvec2 pixel) {
 }
 
 // docs/methods.md section 6, "Overflow". What is held is never wrapped: an optical depth beyond 32768 lets nothing through.
-void aggregateFragment(uint index, float depth, float alpha, vec3 color) {
+void aggregateFragment(uint index, float depth, vec3 tangent, float alpha, vec3 color) {
   AggregatePool pool = AggregatePool(frame.aggregates);
   uint base = index * FLK_AGGREGATE_WORDS;
   float tau = min(-log2(max(1.0 - alpha, 1.0 / 8192.0)), FLK_TAU_MOST);
@@ -44,12 +44,14 @@ void aggregateFragment(uint index, float depth, float alpha, vec3 color) {
   atomicAdd(pool.words[base + 2u], weighted.y);
   atomicAdd(pool.words[base + 3u], weighted.z);
 #else
-  uint bits = floatBitsToUint(depth);
-  atomicMax(pool.words[base + 1u], ~(bits & ~FLK_SLOT_BITS | hair_slot));
-  atomicMax(pool.words[base + 2u], bits);
+  float within = (depth - frame.depth_range.x) / max(frame.depth_range.y - frame.depth_range.x, 1e-30);
+  uint key = uint(clamp(within, 0.0, 1.0) * FLK_NEAREST_DEPTH_STEPS) << FLK_NEAREST_DEPTH_SHIFT |
+             octEncode(tangent, FLK_NEAREST_TANGENT_BITS) << FLK_NEAREST_TANGENT_SHIFT | hair_slot;
+  atomicMax(pool.words[base + 1u], ~key);
+  atomicMax(pool.words[base + 2u], floatBitsToUint(depth));
   atomicAdd(pool.words[base + 3u], 1u);
 #endif
-  atomicAdd(pool.words[base], uint(tau * FLK_TAU_STEPS + 0.5));
+  atomicAdd(pool.words[base], max(uint(tau * FLK_TAU_STEPS + 0.5), 1u));  // the faintest is there too
 }
 
 // Lists of colours have the fibre's colour in them already.
@@ -61,12 +63,12 @@ const bool kColorWord = kColor;
 
 // One fragment into the list of its pixel (Yang et al. 2010). The head changes only when the node has been stored: full lists
 // keep what they hold.
-void storeFragment(uvec2 pixel, float depth, uint payload, uint fibre_color, float alpha, vec3 color) {
+void storeFragment(uvec2 pixel, float depth, vec3 tangent, uint payload, uint fibre_color, float alpha, vec3 color) {
   uint index = countFragment();
   if (kStore == FLK_STORE_COUNT) return;
   uint at = pixelIndex(pixel);
   if (index >= frame.node_capacity) {
-    if (kAggregate) aggregateFragment(at, depth, alpha, color);
+    if (kAggregate) aggregateFragment(at, depth, tangent, alpha, color);
     return;
   }
   uint previous = atomicExchange(heads[at], hair_slot << FLK_LINK_SLOT_SHIFT | index);

@@ -23,11 +23,41 @@ void addWork() {
 }
 #endif
 
-// What all fragments of a pixel share: positions are a line in depth, in view space and in a directional light's map.
+// What the fragments of a pixel share of the frame's light, read once before a loop over them begins.
+struct FrameLight {
+  vec3 ambient;
+  uint mask;       // FLK_LIGHTS_TILES: the pixel's lights of the first 32
+  uint tile;       // and where its masks lie
+  vec3 direction, radiance;  // FLK_LIGHTS_SUN; its hair shadow map:
+  int size;
+  float texel, range;
+};
+
+FrameLight frameLight(uvec2 pixel) {
+  FrameLight light = FrameLight(frame.ambient, 0u, 0u, vec3(0.0, 0.0, 1.0), vec3(0.0), 0, 0.0, 1.0);
+  if (kLights == FLK_LIGHTS_SUN) {
+    light.direction = LightList(frame.lights).at[0].place;
+    light.radiance = LightList(frame.lights).at[0].radiance;
+#ifdef FLK_BIND_SHADOW
+    light.size = int(FaceList(frame.faces).at[0].size);
+    light.texel = FaceList(frame.faces).at[0].texel;
+    light.range = FaceList(frame.faces).at[0].range;
+#endif
+  }
+  if (kLights == FLK_LIGHTS_TILES) {
+    // The host's tiles cover the target; one that does not is not read past its end.
+    uvec2 tile = min(pixel / frame.light_tile_size, uvec2(frame.light_tiles_x, frame.light_tiles_y) - 1u);
+    light.tile = tile.y * frame.light_tiles_x + tile.x;
+    light.mask = WordList(frame.light_tiles).at[light.tile];
+  }
+  return light;
+}
+
+// Positions of a pixel are a line in depth, in view space and in a sun's map.
 struct PixelRay {
   vec3 origin, step;   // view space, of depth 0, a metre of depth
   vec3 to_eye;         // unit
-  vec3 shadow_origin;  // texels and metre, with FLK_LIGHTS_SUN
+  vec3 shadow_origin;  // texels and metre
   vec3 shadow_step;
 };
 
@@ -46,27 +76,6 @@ PixelRay pixelRay(vec2 pixel) {
   }
 #endif
   return ray;
-}
-
-// A single sun as read from the frame: loops over fragments read it once, before they begin.
-struct FrameLight {
-  vec3 direction, radiance, ambient;
-  float texel, range;
-  int size;
-};
-
-FrameLight frameLight() {
-  FrameLight light = FrameLight(vec3(0.0, 0.0, 1.0), vec3(0.0), frame.ambient, 0.0, 1.0, 0);
-  if (kLights == FLK_LIGHTS_SUN) {
-    light.direction = LightList(frame.lights).at[0].place;
-    light.radiance = LightList(frame.lights).at[0].radiance;
-#ifdef FLK_BIND_SHADOW
-    light.texel = FaceList(frame.faces).at[0].texel;
-    light.range = FaceList(frame.faces).at[0].range;
-    light.size = int(FaceList(frame.faces).at[0].size);
-#endif
-  }
-  return light;
 }
 
 // docs/methods.md section 5, "Ambient".
@@ -167,54 +176,58 @@ vec3 radianceOfLight(uint index, HairConstants hair, vec3 fibre, vec3 tangent, v
   return full ? shadeFull(hair, fibre, tangent, L, to_eye, light) : shadeLow(hair, fibre, tangent, L, light);
 }
 
-vec3 radianceOfLights(HairConstants hair, vec3 fibre, vec3 tangent, PixelRay ray, float depth, uvec2 pixel, bool full) {
+vec3 radianceOfLights(HairConstants hair, vec3 fibre, FrameLight source, vec3 tangent, PixelRay ray, float depth, uvec2 pixel, bool full) {
   vec3 position = ray.origin + depth * ray.step;
   vec3 sum = vec3(0.0);
+  // Loops are tested at their end: lavapipe (Mesa 22.3.6) runs a body once more, with all lanes off, where the test comes first, and a
+  // single light would cost two.
   if (kLights == FLK_LIGHTS_ALL) {
-    for (uint i = 0u; i < frame.light_count; ++i)
+    uint i = 0u;  // there is one at least
+    do {
       sum += radianceOfLight(i, hair, fibre, tangent, position, ray.to_eye, pixel, full);
+    } while (++i < frame.light_count);
   } else if (kLights == FLK_LIGHTS_TILES) {
-    // The host's tiles cover the target; one that does not is not read past its end.
-    uvec2 tile = min(pixel / frame.light_tile_size, uvec2(frame.light_tiles_x, frame.light_tiles_y) - 1u);
-    uint stride = frame.light_tiles_x * frame.light_tiles_y, word = tile.y * frame.light_tiles_x + tile.x;
-    for (uint layer = 0u; layer * 32u < frame.light_count; ++layer) {
-      uint mask = WordList(frame.light_tiles).at[layer * stride + word];
-      while (mask != 0u) {
-        uint i = layer * 32u + uint(findLSB(mask));
+    uint mask = source.mask, stride = frame.light_tiles_x * frame.light_tiles_y, first = 0u;
+    do {
+      do {
+        uint i = first + uint(findLSB(mask));
+        if (mask != 0u && i < frame.light_count) sum += radianceOfLight(i, hair, fibre, tangent, position, ray.to_eye, pixel, full);
         mask &= mask - 1u;
-        if (i < frame.light_count) sum += radianceOfLight(i, hair, fibre, tangent, position, ray.to_eye, pixel, full);
-      }
-    }
+      } while (mask != 0u);
+      first += 32u;
+      if (first < frame.light_count) mask = WordList(frame.light_tiles).at[first / 32u * stride + source.tile];
+    } while (first < frame.light_count);
   }
   return sum;
+}
+
+// The share of a sun that hair lets through at a depth of the pixel.
+float sunShadow(HairConstants hair, FrameLight source, vec3 tangent, PixelRay ray, float depth, bool full) {
+#ifdef FLK_BIND_SHADOW
+  if (kCountWork) shadow_taps += full ? 25u : 1u;
+  vec3 at = ray.shadow_origin + depth * ray.shadow_step;
+  float bias = shadowBias(tangent, source.direction, source.texel);
+  return full ? shadowFull(shadow_map, ivec2(0), at, source.size, bias, source.range, hair.fibres_per_metre, hair.shadow_log2)
+              : shadowLow(shadow_map, ivec2(0), at, source.size, bias, source.range, hair.fibres_per_metre, hair.shadow_log2);
+#else
+  return 1.0;
+#endif
 }
 
 // fibre: its colour.
 vec3 radianceFull(HairConstants hair, vec3 fibre, FrameLight source, vec3 tangent, PixelRay ray, float depth, uvec2 pixel) {
   if (kCountWork) full_shades += 1u;
   vec3 around = ambientOn(tangent, source.ambient) * hair.diffuse * fibre;
-  if (kLights != FLK_LIGHTS_SUN) return around + radianceOfLights(hair, fibre, tangent, ray, depth, pixel, true);
-  float light = 1.0;
-#ifdef FLK_BIND_SHADOW
-  if (kCountWork) shadow_taps += 25u;
-  light = shadowFull(shadow_map, ivec2(0), ray.shadow_origin + depth * ray.shadow_step, source.size,
-                     shadowBias(tangent, source.direction, source.texel), source.range,
-                     hair.fibres_per_metre, hair.shadow_log2);
-#endif
+  if (kLights != FLK_LIGHTS_SUN) return around + radianceOfLights(hair, fibre, source, tangent, ray, depth, pixel, true);
+  float light = sunShadow(hair, source, tangent, ray, depth, true);
   return around + shadeFull(hair, fibre, tangent, source.direction, ray.to_eye, light * source.radiance);
 }
 
 vec3 radianceLow(HairConstants hair, vec3 fibre, FrameLight source, vec3 tangent, PixelRay ray, float depth, uvec2 pixel) {
   if (kCountWork) low_shades += 1u;
   vec3 around = ambientOn(tangent, source.ambient) * hair.diffuse * fibre;
-  if (kLights != FLK_LIGHTS_SUN) return around + radianceOfLights(hair, fibre, tangent, ray, depth, pixel, false);
-  float light = 1.0;
-#ifdef FLK_BIND_SHADOW
-  if (kCountWork) shadow_taps += 1u;
-  light = shadowLow(shadow_map, ivec2(0), ray.shadow_origin + depth * ray.shadow_step, source.size,
-                    shadowBias(tangent, source.direction, source.texel), source.range,
-                    hair.fibres_per_metre, hair.shadow_log2);
-#endif
+  if (kLights != FLK_LIGHTS_SUN) return around + radianceOfLights(hair, fibre, source, tangent, ray, depth, pixel, false);
+  float light = sunShadow(hair, source, tangent, ray, depth, false);
   return around + shadeLow(hair, fibre, tangent, source.direction, light * source.radiance);
 }
 

@@ -23,12 +23,13 @@ Key readNode(inout uint link) {
 struct Aggregate {
   float tau;         // 0: nothing
   float least, greatest;  // depths (metre)
-  uint slot;
+  uint slot;         // of the nearest
+  vec3 tangent;      // of the nearest
   vec3 color;        // in lists of colours
 };
 
 Aggregate readAggregate(uint pixel, bool colors) {
-  Aggregate a = Aggregate(0.0, 0.0, 0.0, 0u, vec3(0.0));
+  Aggregate a = Aggregate(0.0, 0.0, 0.0, 0u, vec3(0.0), vec3(0.0));
   if (!kAggregate) return a;
   AggregatePool pool = AggregatePool(frame.aggregates);
   uint base = pixel * FLK_AGGREGATE_WORDS;
@@ -38,12 +39,29 @@ Aggregate readAggregate(uint pixel, bool colors) {
     vec3 sums = vec3(pool.words[base + 1u], pool.words[base + 2u], pool.words[base + 3u]);
     a.color = min(sums / (255.0 * FLK_TAU_COLOR_STEPS * a.tau), vec3(1.0)) * frame.color_range;
   } else {
-    uint least = ~pool.words[base + 1u];
-    a.slot = min(least & FLK_SLOT_BITS, FLK_MAX_HAIRS - 1u);
-    a.least = uintBitsToFloat(least & ~FLK_SLOT_BITS);
+    uint key = ~pool.words[base + 1u];
+    a.slot = min(key & FLK_SLOT_BITS, FLK_MAX_HAIRS - 1u);
+    a.tangent = octDecode(key >> FLK_NEAREST_TANGENT_SHIFT, FLK_NEAREST_TANGENT_BITS);
     a.greatest = uintBitsToFloat(pool.words[base + 2u]);
+    a.least = min(mix(frame.depth_range.x, frame.depth_range.y, float(key >> FLK_NEAREST_DEPTH_SHIFT) / FLK_NEAREST_DEPTH_STEPS), a.greatest);
   }
   return a;
+}
+
+// What of an aggregate is not yet blended: its optical depth is spread evenly between its least and greatest depth, so that the
+// fragments of the list find their place in it.
+struct Slab {
+  float tau, done;  // done: the share that lies before the depths passed so far
+  vec3 color;
+};
+
+// The slab up to `depth` over what lies behind: adds to color_sum, takes from transmittance.
+void passSlab(inout Slab slab, Aggregate a, float depth, inout vec3 color_sum, inout float transmittance) {
+  float share = a.greatest > a.least ? clamp((depth - a.least) / (a.greatest - a.least), slab.done, 1.0) : depth > a.least ? 1.0 : slab.done;
+  float through = exp2(-min(slab.tau * (share - slab.done), 126.0));
+  color_sum += transmittance * (1.0 - through) * slab.color;
+  transmittance *= through;
+  slab.done = share;
 }
 
 #endif

@@ -38,6 +38,7 @@ void main() {
   } else {
     Key front = keyNone();
     uint tau = 0u;  // integers: the same whatever the order of the list
+    bool opaque = false;
     for (uint link = heads[index]; link != FLK_LINK_END;) {
       Key key = readNode(link);
       if (keyLess(key, front, kOneHair, kColor)) front = key;
@@ -47,6 +48,7 @@ void main() {
       if (kColorsListed) unpackColor(key.payload, 1.0, kPayload, unused, alpha);
       else unpackTangent(key.payload, kPayload, unused, alpha);
       tau += uint(min(-log2(max(1.0 - alpha, 1.0 / 8192.0)), FLK_TAU_MOST) * FLK_TAU_STEPS + 0.5);
+      opaque = opaque || alpha >= 1.0;
     }
     Aggregate rest = readAggregate(index, kColorsListed);
     if (front.depth == kDepthNone && !(rest.tau > 0.0)) return;
@@ -55,7 +57,7 @@ void main() {
       if (rest.least < least) slot = rest.slot;
       least = min(least, rest.least), greatest = max(greatest, rest.greatest);
     }
-    transmittance = exp2(-min(float(tau) / FLK_TAU_STEPS + rest.tau, 126.0));
+    transmittance = opaque ? 0.0 : exp2(-min(float(tau) / FLK_TAU_STEPS + rest.tau, 126.0));
   }
   ivec2 p = ivec2(pixel + frame.rect.xy);
 #if FLK_OUTPUT == FLK_FRONT_DEPTH

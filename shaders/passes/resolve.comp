@@ -57,24 +57,22 @@ void main() {
     else color = fragmentColor(key, source, false, alpha);
     addToTail(tail, alpha, color);
   }
-  if (rest.tau > 0.0) {
-    vec3 color = rest.color;
-#ifndef FLK_FORWARD
-    if (kTail != FLK_TAIL_KIND_NONE) color = shadeAggregate(rest, source);
-#endif
-    addAggregate(tail, rest.tau, color);
-  }
-  closeTail(tail);
-
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;
+  Slab slab = Slab(rest.tau, 0.0, rest.color);
+#ifndef FLK_FORWARD
+  if (rest.tau > 0.0) slab.color = shadeAggregate(rest, source, kFull > 0u);
+#endif
   [[dont_unroll]] for (uint i = 0; i < kSort; ++i) {
     if (core[i].depth == kDepthNone) break;
+    if (!kColors && rest.tau > 0.0) passSlab(slab, rest, uintBitsToFloat(core[i].depth), color_sum, transmittance);
     float alpha;
     vec3 color = fragmentColor(core[i], source, i < kFull, alpha);
     color_sum += transmittance * alpha * color;
     transmittance *= 1.0 - alpha;
   }
+  if (rest.tau > 0.0) addAggregate(tail, rest.tau * (1.0 - slab.done), slab.color);
+  closeTail(tail);
   compositePixel(pixel, color_sum + transmittance * tail.color, transmittance * tail.transmittance);
   countPixel();
 }

@@ -27,6 +27,8 @@ void main() {
 
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;
+  Slab slab = Slab(rest.tau, 0.0, vec3(0.0));
+  if (rest.tau > 0.0) slab.color = shadeAggregate(rest, source, true);
   Key last = Key(0u, 0u, 0u, 0u);  // the farthest key blended; no key is 0, depths are positive
   uint last_blended = 0u;  // how many fragments of exactly that key
   bool more = head != FLK_LINK_END;
@@ -54,6 +56,7 @@ void main() {
       } else {
         ++last_blended;
       }
+      if (rest.tau > 0.0) passSlab(slab, rest, uintBitsToFloat(key.depth), color_sum, transmittance);
       float alpha;
       vec3 color = shadeKey(key, source, true, alpha);
       color_sum += transmittance * alpha * color;
@@ -61,11 +64,7 @@ void main() {
     }
     more = farther > kBatch;
   }
-  if (rest.tau > 0.0) {  // behind all that the list holds
-    float through = exp2(-min(rest.tau, 126.0));
-    color_sum += transmittance * (1.0 - through) * shadeAggregate(rest, source);
-    transmittance *= through;
-  }
+  if (rest.tau > 0.0) passSlab(slab, rest, 3.4e38, color_sum, transmittance);
   compositePixel(pixel, color_sum, transmittance);
   countPixel();
 }

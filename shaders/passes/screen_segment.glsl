@@ -19,7 +19,7 @@ struct SegmentShape {
   vec4 tangent_b;  // tangent at b, length (pixel)
   vec2 direction;  // unit, a to b
   vec3 joint;      // slopes of those lines, share of the opacity
-  vec3 color_a, color_b;  // of the fibre, with kColor
+  vec3 color_a, color_b;  // vertex colours, with kColor
 };
 
 vec3 viewPosition(uint vertex) { return frame.hairs[hair_slot].view_from_hair * vec4(positionOf(vertex), 1.0); }
@@ -44,10 +44,15 @@ FlatSegment toFlat(vec3 a, vec3 b, vec3 d) {
   return flatSegment(toPixel(a), toPixel(b), projectDelta(a, d, frame.proj_scale, frame.orthographic, frame.size));
 }
 
-vec3 fibreColor(uint vertex, float fraction) {
-  vec3 base = mix(frame.hairs[hair_slot].color, frame.hairs[hair_slot].tip_color, frame.hairs[hair_slot].tip_blend * fraction);
+vec3 vertexColor(uint vertex) {
   uvec2 colors = frame.hairs[hair_slot].colors;
-  return colors == uvec2(0u) ? base : base * unpackSharedExponent(WordList(colors).at[vertex]);
+  return colors == uvec2(0u) ? vec3(1.0) : unpackSharedExponent(WordList(colors).at[vertex]);
+}
+
+// Of the fibre where the strand's arc length has the share `fraction` behind it, along: the segment.
+vec3 fibreColor(SegmentShape shape, float along, float fraction) {
+  vec3 base = mix(frame.hairs[hair_slot].color, frame.hairs[hair_slot].tip_color, frame.hairs[hair_slot].tip_blend * fraction);
+  return base * mix(shape.color_a, shape.color_b, along);
 }
 
 // False: it makes no quad.
@@ -61,7 +66,7 @@ bool segmentShape(uint index, out SegmentShape shape, out QuadEnd end_a, out Qua
   float radius_max = frame.hairs[hair_slot].radius_max;
   vec2 at_a = vec2(attributeRadius(wa, radius_max), attributeFraction(wa));
   vec2 at_b = vec2(attributeRadius(wb, radius_max), attributeFraction(wb));
-  if (kColor) shape.color_a = fibreColor(ia, at_a.y), shape.color_b = fibreColor(ia + 1u, at_b.y);
+  if (kColor) shape.color_a = vertexColor(ia), shape.color_b = vertexColor(ia + 1u);
 
   vec3 own = unitOrZero(d);
   vec3 tangent_a = vertexTangent(unitOrZero(d_before), own, own);

@@ -11,7 +11,7 @@ struct ShadeSource {
 };
 
 ShadeSource shadeSource(uvec2 pixel) {
-  return ShadeSource(frame.hairs[0], frameLight(), pixelRay(vec2(pixel) + 0.5), pixel);
+  return ShadeSource(frame.hairs[0], frameLight(pixel), pixelRay(vec2(pixel) + 0.5), pixel);
 }
 
 HairConstants hairOf(uint slot, ShadeSource source) {
@@ -33,12 +33,15 @@ vec3 shadeKey(Key key, ShadeSource source, bool full, out float alpha) {
   return shadeTangent(key.slot, tangent, uintBitsToFloat(key.depth), key.color, source, full);
 }
 
-// An aggregate at the middle of its depths, as a mean over tangents: of sin(T, L) over the sphere that is pi / 4.
-vec3 shadeAggregate(Aggregate a, ShadeSource source) {
+// An aggregate as one fragment with the tangent of its nearest, at the mean depth at which it is seen: of a slab of optical depth
+// x (natural) that is the share 1 / x - 1 / (e^x - 1) of the way through.
+vec3 shadeAggregate(Aggregate a, ShadeSource source, bool full) {
   HairConstants hair = hairOf(a.slot, source);
-  vec3 around = ambientOn(vec3(0.0), source.light.ambient) * hair.diffuse * hair.color;
-  vec3 whole = radianceLow(hair, hair.color, source.light, vec3(0.0), source.ray, 0.5 * (a.least + a.greatest), source.pixel);
-  return around + 0.78539816 * (whole - around);
+  float x = a.tau * 0.69314718;
+  float share = x > 0.01 ? 1.0 / x - 1.0 / (exp(min(x, 80.0)) - 1.0) : 0.5;
+  float depth = mix(a.least, a.greatest, clamp(share, 0.0, 0.5));
+  return full ? radianceFull(hair, hair.color, source.light, a.tangent, source.ray, depth, source.pixel)
+              : radianceLow(hair, hair.color, source.light, a.tangent, source.ray, depth, source.pixel);
 }
 
 #endif

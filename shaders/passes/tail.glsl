@@ -11,9 +11,10 @@ struct Tail {
   float transmittance;
   uint tau;           // 2^-16
   uvec3 low, high;    // sums of tau times colour: 64 bits
+  bool opaque;        // a fragment of opacity 1 is among them, which its tau, the greatest of a fragment, does not say
 };
 
-Tail emptyTail() { return Tail(vec3(0.0), 1.0, 0u, uvec3(0u), uvec3(0u)); }
+Tail emptyTail() { return Tail(vec3(0.0), 1.0, 0u, uvec3(0u), uvec3(0u), false); }
 
 uint tauSteps(float alpha) { return uint(min(-log2(max(1.0 - alpha, 1.0 / 8192.0)), FLK_TAU_MOST) * FLK_TAU_STEPS + 0.5); }
 
@@ -34,6 +35,7 @@ void addToTail(inout Tail tail, float alpha, vec3 color) {
     tail.transmittance *= 1.0 - alpha;
   } else {
     addToMean(tail, tauSteps(alpha), color);
+    tail.opaque = tail.opaque || alpha >= 1.0;
   }
 }
 
@@ -51,7 +53,8 @@ void addAggregate(inout Tail tail, float tau, vec3 color) {
 // Colour and transmittance in the end.
 void closeTail(inout Tail tail) {
   if (kTail == FLK_TAIL_KIND_LIST) return;
-  tail.transmittance = exp2(-min(float(tail.tau) / FLK_TAU_STEPS, 126.0)) * (float(tail.tau) > 126.0 * FLK_TAU_STEPS ? 0.0 : 1.0);
+  bool none = tail.opaque || float(tail.tau) > 126.0 * FLK_TAU_STEPS;
+  tail.transmittance = none ? 0.0 : exp2(-min(float(tail.tau) / FLK_TAU_STEPS, 126.0));
   if (kTail == FLK_TAIL_KIND_NONE || tail.tau == 0u) return;
   vec3 sum = vec3(tail.high) * 4294967296.0 + vec3(tail.low);
   tail.color = sum / (float(tail.tau) * kColorSteps) * frame.tail_range * (1.0 - tail.transmittance);

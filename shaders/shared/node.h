@@ -11,13 +11,18 @@
 #define FLK_COUNT_SATURATED 0xF0000000u
 
 // Aggregate of a pixel's fragments that found the lists full, all words 0 where there are none. Optical depth tau = -log2(1 - a), at
-// most FLK_TAU_MOST. Of tangents: sum of tau (2^-16), largest ~(depth bits with the slot in the last 6), largest depth bits,
-// count. Of colours: sum of tau (2^-16), sums of tau (2^-6) times colour (1/255 of the range).
+// most FLK_TAU_MOST. Of tangents: sum of tau (2^-16), ~key of the nearest, largest depth bits, count; the key has its depth within
+// the frame's hair in 12 bits, its tangent in 7 + 7 and its slot. Of colours: sum of tau (2^-16), sums of tau (2^-6) times colour
+// (1/255 of the range).
 #define FLK_AGGREGATE_WORDS 4u
 #define FLK_TAU_MOST 12.0
 #define FLK_TAU_STEPS 65536.0
 #define FLK_TAU_SATURATED 0x80000000u
 #define FLK_TAU_COLOR_STEPS 64.0
+#define FLK_NEAREST_DEPTH_STEPS 4095.0
+#define FLK_NEAREST_DEPTH_SHIFT 20
+#define FLK_NEAREST_TANGENT_BITS 7
+#define FLK_NEAREST_TANGENT_SHIFT 6
 #define FLK_SLOT_BITS 63u
 
 // Counters: fragments, then what FLK_SPEC_COUNT_WORK counts.

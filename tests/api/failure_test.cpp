@@ -68,6 +68,94 @@ void live(Scene& scene, const std::function<void()>& call_off, Failures& failure
   scene.context.reset();
 }
 
+// The same with everything: a hair of all parts, frames of all features, by raster and by compute, outputs, a count first.
+void liveFully(Scene& scene, const std::function<void()>& call_off, Failures& failures) {
+  const auto step = [&](const char* name, const std::function<FlkResult()>& call) {
+    const FlkResult result = call();
+    if (result >= 0) return;
+    failures.results.push_back(result);
+    call_off();
+    EXPECT_EQ(call(), FLK_SUCCESS) << name << " after it failed once: " << scene.last_message;
+  };
+  const forelock::Asset asset = makeAsset(12, 0.0f, nullptr, true);
+  step("flkContextCreate", [&] { return scene.createContext(); });
+  {
+    const float pixel[3] = {1.0f, 0.5f, 0.0f};
+    const FlkRootImage image{pixel, 1, 1};
+    forelock::Hair hair;
+    step("flkHairCreate", [&] {
+      FlkHairDesc desc = forelock::hairDesc();
+      desc.asset = asset;
+      desc.flags = FLK_HAIR_HOST_POSITIONS;
+      desc.root_image = &image;
+      desc.follow.count = 3;
+      return forelock::create(scene.context, desc, hair);
+    });
+    FlkHairPositions positions{};
+    positions.address = scene.positions(96);
+    for (int axis = 0; axis < 3; ++axis) positions.min_bounds[axis] = -0.1f, positions.max_bounds[axis] = 0.15f;
+    step("flkHairSetPositions", [&] { return flkHairSetPositions(hair, &positions); });
+    forelock::View view;
+    step("flkViewCreate", [&] {
+      FlkViewDesc desc = forelock::viewDesc();
+      desc.frames_in_flight = 2;
+      return forelock::create(scene.context, desc, view);
+    });
+    scene.driver.frame = 1;
+    step("flkCmdUpload", [&] { return flkCmdUpload(scene.driver.command_buffer, hair); });
+    for (uint64_t number = 1; number <= 9; ++number) {
+      const uint64_t completed = number > 2 ? number - 2 : 0;
+      FlkFrame frame = scene.fullFrame(number, completed, {hair});
+      frame.target.width = 64, frame.target.height = 40;
+      frame.count_only = number == 1;
+      frame.method = static_cast<uint32_t>(number % 6);
+      frame.capture = 1 + static_cast<uint32_t>(number / 4 % 2);
+      frame.overflow = static_cast<uint32_t>(number / 3 % 2);
+      if (number == 5) frame.light_count = 1, frame.ambient_sh = nullptr;
+      if (number == 7) frame.display = FLK_DISPLAY_LAYERS;
+      step("flkPlanFrame", [&] { return scene.render(view, frame); });
+      if (uint32_t* count = scene.driver.latestReadBack()) *count = static_cast<uint32_t>(2000 * number);
+      FlkStatistics statistics;
+      step("flkViewGetStatistics", [&] { return flkViewGetStatistics(view, completed, &statistics); });
+    }
+    scene.driver.completed = 9;
+  }
+  scene.context.reset();
+}
+
+TEST(Failure, ofEveryVulkanCallOfEverything) {
+  uint64_t n = 1;
+  for (; n < kEnough; ++n) {
+    Scene scene;
+    scene.driver.fail_at = n;
+    Failures failures;
+    liveFully(scene, [&] { scene.driver.fail_at = 0; }, failures);
+    ASSERT_TRUE(scene.nothingLeft()) << "call " << n << ", " << scene.driver.failed_call << " failed";
+    if (scene.driver.failed_call.empty()) break;
+    if (scene.driver.failed_call == "vkGetQueryPoolResults" && failures.results.empty()) continue;
+    ASSERT_EQ(failures.results.size(), 1u) << "call " << n << ", " << scene.driver.failed_call;
+    EXPECT_EQ(failures.results[0], FLK_ERROR_OUT_OF_DEVICE_MEMORY) << "call " << n << ", " << scene.driver.failed_call;
+  }
+  EXPECT_GT(n, 150u);
+  EXPECT_LT(n, kEnough);
+}
+
+TEST(Failure, ofEveryHostAllocationOfEverything) {
+  uint64_t n = 1;
+  for (; n < kEnough; ++n) {
+    Scene scene;
+    scene.memory.fail_at = n;
+    Failures failures;
+    liveFully(scene, [&] { scene.memory.fail_at = 0; }, failures);
+    ASSERT_TRUE(scene.nothingLeft()) << "allocation " << n;
+    if (!scene.memory.failed) break;
+    ASSERT_EQ(failures.results.size(), 1u) << "allocation " << n;
+    EXPECT_EQ(failures.results[0], FLK_ERROR_OUT_OF_HOST_MEMORY) << "allocation " << n;
+  }
+  EXPECT_GT(n, 30u);
+  EXPECT_LT(n, kEnough);
+}
+
 TEST(Failure, ofEveryVulkanCall) {
   const struct {
     VkResult failure;

@@ -28,6 +28,7 @@ void* HostMemory::allocate(size_t size, size_t alignment) {
   void* memory = std::aligned_alloc(unit, (size + unit) / unit * unit);
   std::memset(memory, 0xCD, size);  // whoever reads it before writing to it should notice
   blocks_[memory] = {size, alignment};
+  live_bytes += size;
   return memory;
 }
 
@@ -39,7 +40,8 @@ void HostMemory::free(void* memory, size_t size, size_t alignment) {
   }
   if (block->second.size != size || block->second.alignment != alignment)
     breaches.push_back("free: size or alignment differs from the allocation's");
-  std::memset(memory, 0xDD, size);
+  std::memset(memory, 0xDD, block->second.size);
+  live_bytes -= block->second.size;
   std::free(memory);
   blocks_.erase(block);
 }

@@ -21,6 +21,7 @@ public:
   bool failed = false;
   std::vector<std::string> breaches;
   size_t live() const { return blocks_.size(); }
+  size_t live_bytes = 0;
 
 private:
   struct Block {

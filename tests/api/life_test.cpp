@@ -232,7 +232,12 @@ TEST(Life, refusesADeviceThatLacksSomething) {
       {"bufferDeviceAddress", [](mock::Claims& claims) { claims.features12.bufferDeviceAddress = VK_FALSE; }},
       {"dynamicRendering", [](mock::Claims& claims) { claims.features13.dynamicRendering = VK_FALSE; }},
       {"synchronization2", [](mock::Claims& claims) { claims.features13.synchronization2 = VK_FALSE; }},
-      {"queue", [](mock::Claims& claims) { claims.queue_families[0].queueFlags = VK_QUEUE_COMPUTE_BIT; }},
+      {"ballots", [](mock::Claims& claims) { claims.properties11.subgroupSupportedOperations = VK_SUBGROUP_FEATURE_BASIC_BIT; }},
+      {"subgroups", [](mock::Claims& claims) { claims.properties11.subgroupSupportedOperations = 0; }},
+      {"ballots in fragment shaders",
+       [](mock::Claims& claims) { claims.properties11.subgroupSupportedStages = VK_SHADER_STAGE_COMPUTE_BIT; }},
+      {"ballots in compute shaders",
+       [](mock::Claims& claims) { claims.properties11.subgroupSupportedStages = VK_SHADER_STAGE_FRAGMENT_BIT; }},
       {"queue", [](mock::Claims& claims) { claims.queue_families[0].queueFlags = VK_QUEUE_GRAPHICS_BIT; }},
       {"vkCreateComputePipelines",
        [](mock::Claims& claims) { claims.missing_functions.insert("vkCreateComputePipelines"); }},
@@ -255,8 +260,10 @@ TEST(Life, requirementsMatchWhatIsChecked) {
   FlkRequirements needs;
   flkGetRequirements(&needs);
   EXPECT_EQ(needs.api_version, VK_API_VERSION_1_3);
-  EXPECT_EQ(needs.queue_flags & (VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT),
-            VkQueueFlags{VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT});
+  EXPECT_EQ(needs.queue_flags, VkQueueFlags{VK_QUEUE_COMPUTE_BIT});  // graphics only for FLK_CAPTURE_RASTER
+  EXPECT_EQ(needs.subgroup_operations, VkSubgroupFeatureFlags{VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT});
+  EXPECT_EQ(needs.subgroup_stages, VkShaderStageFlags{VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT});
+  EXPECT_TRUE(needs.output_features.shaderStorageImageExtendedFormats);
   EXPECT_EQ(needs.features12.sType, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
   EXPECT_EQ(needs.features13.sType, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
   EXPECT_EQ(needs.features12.pNext, nullptr);

@@ -24,6 +24,10 @@ VKAPI_ATTR void VKAPI_CALL CmdPipelineBarrier2(VkCommandBuffer cmd, const VkDepe
   Command& command = driver.record(cmd, "vkCmdPipelineBarrier2", false);
   command.image_barriers.assign(info->pImageMemoryBarriers, info->pImageMemoryBarriers + info->imageMemoryBarrierCount);
   command.buffer_barriers = info->bufferMemoryBarrierCount + info->memoryBarrierCount;
+  for (uint32_t i = 0; i < info->memoryBarrierCount; ++i)
+    command.stages |= info->pMemoryBarriers[i].srcStageMask | info->pMemoryBarriers[i].dstStageMask;
+  for (const VkImageMemoryBarrier2& barrier : command.image_barriers) command.stages |= barrier.srcStageMask | barrier.dstStageMask;
+  driver.checkStages(command.stages, "vkCmdPipelineBarrier2");
   for (const VkImageMemoryBarrier2& barrier : command.image_barriers)
     if (Object* image = driver.known(barrier.image, Kind::Image, "vkCmdPipelineBarrier2")) {
       driver.use(image);
@@ -34,7 +38,14 @@ VKAPI_ATTR void VKAPI_CALL CmdPipelineBarrier2(VkCommandBuffer cmd, const VkDepe
       driver.use(buffer);
 }
 
+// What only a queue with graphics takes.
+void graphicsOnly(const char* name) {
+  Driver& driver = Driver::current();
+  if (!(driver.queue_flags & VK_QUEUE_GRAPHICS_BIT)) driver.breach(std::string(name) + ": on a queue without graphics");
+}
+
 VKAPI_ATTR void VKAPI_CALL CmdBindPipeline(VkCommandBuffer cmd, VkPipelineBindPoint point, VkPipeline pipeline) {
+  if (point == VK_PIPELINE_BIND_POINT_GRAPHICS) graphicsOnly("vkCmdBindPipeline");
   Command& command = recordWith(cmd, "vkCmdBindPipeline", pipeline, Kind::Pipeline, false, true);
   if (!command.objects.empty() && command.objects[0]->bind_point != point)
     Driver::current().breach("vkCmdBindPipeline: wrong bind point");
@@ -45,6 +56,7 @@ VKAPI_ATTR void VKAPI_CALL CmdBindDescriptorSets(VkCommandBuffer cmd, VkPipeline
                                                  VkPipelineLayout layout, uint32_t first, uint32_t count,
                                                  const VkDescriptorSet* sets, uint32_t, const uint32_t*) {
   Driver& driver = Driver::current();
+  if (point == VK_PIPELINE_BIND_POINT_GRAPHICS) graphicsOnly("vkCmdBindDescriptorSets");
   Command& command = recordWith(cmd, "vkCmdBindDescriptorSets", layout, Kind::PipelineLayout, false, true);
   command.numbers = {first, count};
   for (uint32_t i = 0; i < count; ++i)
@@ -55,10 +67,14 @@ VKAPI_ATTR void VKAPI_CALL CmdBindDescriptorSets(VkCommandBuffer cmd, VkPipeline
     }
 }
 
-VKAPI_ATTR void VKAPI_CALL CmdPushConstants(VkCommandBuffer cmd, VkPipelineLayout layout, VkShaderStageFlags,
+VKAPI_ATTR void VKAPI_CALL CmdPushConstants(VkCommandBuffer cmd, VkPipelineLayout layout, VkShaderStageFlags stages,
                                             uint32_t offset, uint32_t size, const void* data) {
   recordWith(cmd, "vkCmdPushConstants", layout, Kind::PipelineLayout, false, true).numbers = {offset, size};
-  Driver::current().useAddresses(data, size);
+  Driver& driver = Driver::current();
+  if (size == 0 || size % 4 != 0 || offset % 4 != 0 || offset + size > driver.push_bytes)
+    driver.breach("vkCmdPushConstants: wrong size or range");
+  if (stages != driver.push_stages) driver.breach("vkCmdPushConstants: other stages than the range's");
+  driver.useAddresses(data, size);
 }
 
 // A draw or dispatch uses what its pipeline declares of the sets that are bound; other bindings may be stale.
@@ -104,14 +120,17 @@ VKAPI_ATTR void VKAPI_CALL CmdDrawIndexed(VkCommandBuffer cmd, uint32_t indices,
 }
 
 VKAPI_ATTR void VKAPI_CALL CmdBindIndexBuffer(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset, VkIndexType) {
+  graphicsOnly("vkCmdBindIndexBuffer");
   recordWith(cmd, "vkCmdBindIndexBuffer", buffer, Kind::Buffer, false, true).numbers = {offset};
 }
 
 VKAPI_ATTR void VKAPI_CALL CmdSetViewport(VkCommandBuffer cmd, uint32_t, uint32_t, const VkViewport*) {
+  graphicsOnly("vkCmdSetViewport");
   Driver::current().record(cmd, "vkCmdSetViewport", false, true);
 }
 
 VKAPI_ATTR void VKAPI_CALL CmdSetScissor(VkCommandBuffer cmd, uint32_t, uint32_t, const VkRect2D* scissors) {
+  graphicsOnly("vkCmdSetScissor");
   Command& command = Driver::current().record(cmd, "vkCmdSetScissor", false, true);
   command.numbers = {scissors[0].extent.width, scissors[0].extent.height};
   if (scissors[0].offset.x < 0 || scissors[0].offset.y < 0)
@@ -120,6 +139,7 @@ VKAPI_ATTR void VKAPI_CALL CmdSetScissor(VkCommandBuffer cmd, uint32_t, uint32_t
 
 VKAPI_ATTR void VKAPI_CALL CmdBeginRendering(VkCommandBuffer cmd, const VkRenderingInfo* info) {
   Driver& driver = Driver::current();
+  graphicsOnly("vkCmdBeginRendering");
   Command& command = driver.record(cmd, "vkCmdBeginRendering", false);
   command.numbers = {info->renderArea.extent.width, info->renderArea.extent.height};
   std::vector<const VkRenderingAttachmentInfo*> attachments{info->pDepthAttachment, info->pStencilAttachment};
@@ -162,6 +182,17 @@ VKAPI_ATTR void VKAPI_CALL CmdCopyBuffer(VkCommandBuffer cmd, VkBuffer from, VkB
   }
 }
 
+VKAPI_ATTR void VKAPI_CALL CmdClearColorImage(VkCommandBuffer cmd, VkImage image, VkImageLayout layout, const VkClearColorValue*,
+                                              uint32_t count, const VkImageSubresourceRange* ranges) {
+  Driver& driver = Driver::current();
+  Command& command = recordWith(cmd, "vkCmdClearColorImage", image, Kind::Image, false);
+  command.numbers = {count};
+  if (command.objects.empty()) return;
+  if (!(command.objects[0]->usage & VK_IMAGE_USAGE_TRANSFER_DST_BIT) || layout != VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL || count == 0 ||
+      ranges[0].aspectMask != VK_IMAGE_ASPECT_COLOR_BIT)
+    driver.breach("vkCmdClearColorImage: wrong usage, layout or range");
+}
+
 VKAPI_ATTR void VKAPI_CALL CmdFillBuffer(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
                                          uint32_t value) {
   Driver& driver = Driver::current();
@@ -199,12 +230,13 @@ VKAPI_ATTR void VKAPI_CALL CmdResetQueryPool(VkCommandBuffer cmd, VkQueryPool po
 }
 
 // Each stamp is a millisecond after the one before (timestampPeriod is 1 ns).
-VKAPI_ATTR void VKAPI_CALL CmdWriteTimestamp2(VkCommandBuffer cmd, VkPipelineStageFlags2, VkQueryPool pool,
+VKAPI_ATTR void VKAPI_CALL CmdWriteTimestamp2(VkCommandBuffer cmd, VkPipelineStageFlags2 stages, VkQueryPool pool,
                                               uint32_t query) {
   static uint64_t now = 0;
   Driver& driver = Driver::current();
   Command& command = recordWith(cmd, "vkCmdWriteTimestamp2", pool, Kind::QueryPool, false, true);
   command.numbers = {query};
+  driver.checkStages(command.stages = stages, "vkCmdWriteTimestamp2");
   if (command.objects.empty()) return;
   int& state = command.objects[0]->query_states.at(query);
   if (state != 1) driver.breach("vkCmdWriteTimestamp2: the query was not reset");
@@ -219,7 +251,7 @@ const FunctionTable& commandFunctions() {
   static const FunctionTable table = {
       MOCK(CmdPipelineBarrier2), MOCK(CmdBindPipeline), MOCK(CmdBindDescriptorSets), MOCK(CmdPushConstants),
       MOCK(CmdDispatch), MOCK(CmdDispatchIndirect), MOCK(CmdDraw), MOCK(CmdDrawIndexed), MOCK(CmdBindIndexBuffer),
-      MOCK(CmdSetViewport), MOCK(CmdSetScissor), MOCK(CmdBeginRendering), MOCK(CmdEndRendering), MOCK(CmdCopyBuffer),
+      MOCK(CmdSetViewport), MOCK(CmdSetScissor), MOCK(CmdBeginRendering), MOCK(CmdEndRendering), MOCK(CmdCopyBuffer), MOCK(CmdClearColorImage),
       MOCK(CmdFillBuffer), MOCK(CmdUpdateBuffer), MOCK(CmdResetQueryPool), MOCK(CmdWriteTimestamp2)};
 #undef MOCK
   return table;

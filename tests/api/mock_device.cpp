@@ -24,12 +24,6 @@ VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceProperties(VkPhysicalDevice, VkPhysi
   *properties = Driver::current().claims.properties;
 }
 
-// Structs of the chain that are not known here stay as the caller zeroed them, which claims nothing.
-VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceProperties2(VkPhysicalDevice, VkPhysicalDeviceProperties2* properties) {
-  Driver::current().enter("vkGetPhysicalDeviceProperties2");
-  properties->properties = Driver::current().claims.properties;
-}
-
 VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceFeatures(VkPhysicalDevice, VkPhysicalDeviceFeatures* features) {
   Driver::current().enter("vkGetPhysicalDeviceFeatures");
   *features = Driver::current().claims.features;
@@ -39,6 +33,18 @@ template <class T> void answer(VkBaseOutStructure* asked, T claimed) {
   claimed.sType = asked->sType;
   claimed.pNext = asked->pNext;
   std::memcpy(static_cast<void*>(asked), &claimed, sizeof claimed);
+}
+
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceProperties2(VkPhysicalDevice, VkPhysicalDeviceProperties2* properties) {
+  Driver& driver = Driver::current();
+  driver.enter("vkGetPhysicalDeviceProperties2");
+  properties->properties = driver.claims.properties;
+  for (auto* asked = static_cast<VkBaseOutStructure*>(properties->pNext); asked; asked = asked->pNext) {
+    if (asked->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES)
+      answer(asked, driver.claims.properties11);
+    else
+      driver.breach("vkGetPhysicalDeviceProperties2 with a struct the mock does not answer: " + std::to_string(asked->sType));
+  }
 }
 
 VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceFeatures2(VkPhysicalDevice, VkPhysicalDeviceFeatures2* features) {
@@ -196,8 +202,13 @@ VKAPI_ATTR VkResult VKAPI_CALL CreateImage(VkDevice device, const VkImageCreateI
   if (info->extent.width == 0 || info->extent.height == 0 || info->extent.width > limit || info->extent.height > limit)
     driver.breach("vkCreateImage: extent out of range");
   Object* object = driver.make(Kind::Image);
-  object->size = VkDeviceSize{8} * info->extent.width * info->extent.height * info->extent.depth * info->arrayLayers;
+  if (info->usage == 0) driver.breach("vkCreateImage: no usage");
+  constexpr VkDeviceSize kTexel = 4;  // all that the SDK makes
+  if (info->format != VK_FORMAT_D32_SFLOAT && info->format != VK_FORMAT_R32_UINT) driver.breach("vkCreateImage: a format that is not modelled");
+  object->size = kTexel * info->extent.width * info->extent.height * info->extent.depth * info->arrayLayers;
   object->usage = info->usage;
+  object->format = info->format;
+  object->mutable_format = info->flags & VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
   *image = handleOf<VkImage>(object);
   return VK_SUCCESS;
 }
@@ -252,7 +263,6 @@ VKAPI_ATTR VkResult VKAPI_CALL BindImageMemory(VkDevice, VkImage image, VkDevice
   return bind(image, Kind::Image, memory, offset, "vkBindImageMemory");
 }
 
-// The host's address of the object does as the device's: unique, and told apart from other words.
 VKAPI_ATTR VkDeviceAddress VKAPI_CALL GetBufferDeviceAddress(VkDevice device, const VkBufferDeviceAddressInfo* info) {
   Driver& driver = Driver::current();
   driver.checkDevice(device, "vkGetBufferDeviceAddress");
@@ -261,7 +271,7 @@ VKAPI_ATTR VkDeviceAddress VKAPI_CALL GetBufferDeviceAddress(VkDevice device, co
   if (!(buffer->usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) || !buffer->memory ||
       !(buffer->memory->addressable || buffer->memory->of_host))
     driver.breach("vkGetBufferDeviceAddress: the buffer or its memory was not made for that");
-  return reinterpret_cast<VkDeviceAddress>(buffer);
+  return driver.giveAddress(buffer);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL CreateImageView(VkDevice device, const VkImageViewCreateInfo* info,
@@ -275,6 +285,19 @@ VKAPI_ATTR VkResult VKAPI_CALL CreateImageView(VkDevice device, const VkImageVie
   if (image && !image->memory && !image->of_host) driver.breach("vkCreateImageView: the image has no memory");
   Object* object = driver.make(Kind::ImageView);
   object->uses = {image};
+  object->format = info->format;
+  object->usage = image ? image->usage : 0;
+  for (auto* more = static_cast<const VkBaseInStructure*>(info->pNext); more; more = more->pNext)
+    if (more->sType == VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO)
+      object->usage = reinterpret_cast<const VkImageViewUsageCreateInfo*>(more)->usage;
+  if (image && !image->of_host) {
+    if (object->usage == 0 || (object->usage & ~image->usage))
+      driver.breach("vkCreateImageView: a usage that the image was not made for");
+    if (info->format != image->format && !image->mutable_format)
+      driver.breach("vkCreateImageView: another format than the image's");
+    const VkImageAspectFlags aspect = isDepth(image->format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    if (info->subresourceRange.aspectMask != aspect) driver.breach("vkCreateImageView: wrong aspect");
+  }
   *view = handleOf<VkImageView>(object);
   return VK_SUCCESS;
 }
@@ -339,8 +362,15 @@ VKAPI_ATTR VkResult VKAPI_CALL CreateDescriptorSetLayout(VkDevice device, const 
 
 VKAPI_ATTR VkResult VKAPI_CALL CreatePipelineLayout(VkDevice device, const VkPipelineLayoutCreateInfo* info,
                                                     const VkAllocationCallbacks*, VkPipelineLayout* layout) {
+  Driver& driver = Driver::current();
   for (uint32_t i = 0; i < info->setLayoutCount; ++i)
-    Driver::current().known(info->pSetLayouts[i], Kind::SetLayout, "vkCreatePipelineLayout");
+    driver.known(info->pSetLayouts[i], Kind::SetLayout, "vkCreatePipelineLayout");
+  for (uint32_t i = 0; i < info->pushConstantRangeCount; ++i) {
+    const VkPushConstantRange& range = info->pPushConstantRanges[i];
+    if (range.size == 0 || range.offset + range.size > 128) driver.breach("vkCreatePipelineLayout: more push constants than every device has");
+    driver.push_bytes = range.offset + range.size;
+    driver.push_stages = range.stageFlags;
+  }
   return createPlain<Kind::PipelineLayout>(device, info, layout, "vkCreatePipelineLayout");
 }
 
@@ -478,6 +508,18 @@ Object* writtenBuffer(const VkWriteDescriptorSet& write, const VkDescriptorBuffe
   return buffer;
 }
 
+Object* writtenImage(const VkWriteDescriptorSet& write, const VkDescriptorImageInfo& info) {
+  Driver& driver = Driver::current();
+  Object* view = driver.known(info.imageView, Kind::ImageView, "vkUpdateDescriptorSets");
+  if (!view) return nullptr;
+  const bool storage = write.descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+  if (!(view->usage & (storage ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_SAMPLED_BIT)))
+    driver.breach("vkUpdateDescriptorSets: the image was not made for that");
+  if (storage ? info.imageLayout != VK_IMAGE_LAYOUT_GENERAL : info.imageLayout == VK_IMAGE_LAYOUT_UNDEFINED)
+    driver.breach("vkUpdateDescriptorSets: a layout in which the image cannot be used");
+  return view;
+}
+
 VKAPI_ATTR void VKAPI_CALL UpdateDescriptorSets(VkDevice device, uint32_t write_count,
                                                 const VkWriteDescriptorSet* writes, uint32_t copy_count,
                                                 const VkCopyDescriptorSet*) {
@@ -500,7 +542,7 @@ VKAPI_ATTR void VKAPI_CALL UpdateDescriptorSets(VkDevice device, uint32_t write_
       if (isBufferType(write.descriptorType))
         resource = writtenBuffer(write, write.pBufferInfo[i]);
       else if (write.pImageInfo && write.descriptorType != VK_DESCRIPTOR_TYPE_SAMPLER)
-        resource = driver.known(write.pImageInfo[i].imageView, Kind::ImageView, "vkUpdateDescriptorSets");
+        resource = writtenImage(write, write.pImageInfo[i]);
       if (resource) set->bindings[{write.dstBinding, write.dstArrayElement + i}] = resource;
     }
   }

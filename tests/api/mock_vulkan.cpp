@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 namespace mock {
 namespace {
@@ -82,6 +83,9 @@ Claims::Claims() {
   limits.timestampComputeAndGraphics = VK_TRUE;
   limits.timestampPeriod = 1.0f;
   limits.maxViewportDimensions[0] = limits.maxViewportDimensions[1] = 16384;
+  properties11.subgroupSize = 32;
+  properties11.subgroupSupportedStages = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+  properties11.subgroupSupportedOperations = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
   features.fragmentStoresAndAtomics = VK_TRUE;
   features12.scalarBlockLayout = VK_TRUE;
   features12.bufferDeviceAddress = VK_TRUE;
@@ -125,13 +129,21 @@ Driver& Driver::current() {
 
 PFN_vkGetInstanceProcAddr Driver::getInstanceProcAddr() { return GetInstanceProcAddr; }
 
-VkImage Driver::hostImage(VkImageView* view) {
+VkImage Driver::hostImage(VkImageView* view, VkImageUsageFlags usage) {
   Object* image = make(Kind::Image);
   Object* image_view = make(Kind::ImageView);
   image->of_host = image_view->of_host = true;
+  image->usage = image_view->usage = usage;
   image_view->uses = {image};
   *view = handleOf<VkImageView>(image_view);
   return handleOf<VkImage>(image);
+}
+
+VkDeviceAddress Driver::hostBuffer(VkDeviceSize size) {
+  Object* buffer = make(Kind::Buffer);
+  buffer->of_host = true;
+  buffer->size = size;
+  return giveAddress(buffer);
 }
 
 size_t Driver::alive(Kind kind) const {
@@ -153,6 +165,13 @@ VkDeviceSize Driver::bytesAllocated() const {
   VkDeviceSize bytes = 0;
   for (const auto& object : objects_)
     if (object->alive && object->kind == Kind::Memory) bytes += object->size;
+  return bytes;
+}
+
+VkDeviceSize Driver::bytesOfResources() const {
+  VkDeviceSize bytes = 0;
+  for (const auto& object : objects_)
+    if (object->alive && !object->of_host && (object->kind == Kind::Buffer || object->kind == Kind::Image)) bytes += object->size;
   return bytes;
 }
 
@@ -236,13 +255,33 @@ void Driver::use(Object* object) {
   for (Object* part : object->uses) use(part);
 }
 
+VkDeviceAddress Driver::giveAddress(Object* buffer) {
+  if (buffer->address == 0) {
+    buffer->address = next_address_;
+    device_addresses_[buffer->address] = buffer;
+    next_address_ += (buffer->size + 511) / 256 * 256;  // with a gap behind it
+  }
+  return buffer->address;
+}
+
 void Driver::useAddresses(const void* data, size_t size) {
   for (size_t at = 0; at + sizeof(VkDeviceAddress) <= size; at += sizeof(uint32_t)) {
     VkDeviceAddress word;
     std::memcpy(&word, static_cast<const std::byte*>(data) + at, sizeof word);
-    auto* object = reinterpret_cast<Object*>(word);
-    if (word && addresses_.count(object) && object->kind == Kind::Buffer) use(object);
+    const auto after = device_addresses_.upper_bound(word);
+    if (after == device_addresses_.begin()) continue;
+    const auto& [address, buffer] = *std::prev(after);
+    if (word - address < buffer->size) use(buffer);
   }
+}
+
+// A queue without graphics has no stage of the rasteriser.
+void Driver::checkStages(VkPipelineStageFlags2 stages, const char* by) {
+  constexpr VkPipelineStageFlags2 kEvery = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT |
+                                           VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT |
+                                           VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT;
+  if (!(queue_flags & VK_QUEUE_GRAPHICS_BIT) && (stages & ~kEvery))
+    breach(std::string(by) + ": a stage of graphics on a queue without them");
 }
 
 void Driver::beginCommandBuffer() {

@@ -16,6 +16,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace mock {
@@ -33,7 +34,10 @@ struct Object {
   bool of_host = false;             // made by the test, not by the SDK
   uint64_t last_frame = 0;          // the latest frame that recorded a use of it
   VkDeviceSize size = 0;            // buffer, image, memory
-  VkFlags usage = 0;                // buffer, image
+  VkFlags usage = 0;                // buffer, image, image view; pool: its flags
+  VkFormat format = VK_FORMAT_UNDEFINED;  // image, image view
+  bool mutable_format = false;      // image
+  VkDeviceAddress address = 0;      // buffer, once it was asked for
   Object* memory = nullptr;         // buffer, image: what it is bound to
   VkDeviceSize memory_offset = 0;
   uint32_t memory_type = 0;         // memory
@@ -55,6 +59,7 @@ struct Command {
   std::string name;              // "vkCmdDraw"
   std::vector<Object*> objects;  // what it names, in the order of its arguments
   std::vector<uint64_t> numbers; // counts and groups
+  VkPipelineStageFlags2 stages = 0;  // that a barrier or a timestamp names
   std::vector<VkImageMemoryBarrier2> image_barriers;
   uint32_t buffer_barriers = 0;  // of buffers and of memory as a whole
 };
@@ -63,6 +68,7 @@ struct Command {
 struct Claims {
   uint32_t instance_version = VK_API_VERSION_1_3;
   VkPhysicalDeviceProperties properties{};
+  VkPhysicalDeviceVulkan11Properties properties11{};
   VkPhysicalDeviceFeatures features{};
   VkPhysicalDeviceVulkan12Features features12{};
   VkPhysicalDeviceVulkan13Features features13{};
@@ -87,8 +93,10 @@ public:
   VkDevice device;
   VkCommandBuffer command_buffer;
 
-  // Images of the host: never destroyed by the SDK, or it is a breach.
-  VkImage hostImage(VkImageView* view);
+  // Images of the host: never destroyed by the SDK, or it is a breach. `usage`: what they may be bound as.
+  VkImage hostImage(VkImageView* view, VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+  // A buffer of the host that shaders reach by the address that comes back.
+  VkDeviceAddress hostBuffer(VkDeviceSize size);
 
   // The call that fails, counted from 1 over all calls that can; 0: none. `failed_call` names it afterwards.
   uint64_t fail_at = 0;
@@ -110,6 +118,7 @@ public:
   size_t alive(Kind kind) const;                 // objects of the SDK
   std::string leaks() const;                     // objects of the SDK that are alive, in words; empty: none
   VkDeviceSize bytesAllocated() const;
+  VkDeviceSize bytesOfResources() const;         // of the SDK's buffers and images, as asked for
   uint64_t calledOutsideRecording() const;       // calls so far that were not vkCmd...
 
   std::vector<std::string> commandNames() const;
@@ -126,22 +135,32 @@ public:
   void enter(const char* name);
   void checkDevice(VkDevice handle, const char* by);
   void use(Object* object);
-  // Buffers whose device address is among the words that shaders are given: used as if they were bound.
+  // Buffers that words given to shaders point into: used as if they were bound. Addresses are never given twice.
   void useAddresses(const void* data, size_t size);
+  VkDeviceAddress giveAddress(Object* buffer);
   bool busy(const Object* object) const { return object->last_frame > completed; }
   void destroy(const void* handle, Kind kind, const char* by);
   void dropSet(Object* pool, Object* set, const char* by);
   Command& record(VkCommandBuffer cmd, const char* name, bool wanted_inside, bool allowed_both = false);
 
+  // Of the latest pipeline layout.
+  uint32_t push_bytes = 0;
+  VkShaderStageFlags push_stages = 0;
+
   // State of the command buffer, by bind point (graphics, compute).
   bool inside_rendering = false;
+  // The family that the command buffer is for; what it does not offer may not be recorded.
+  VkQueueFlags queue_flags = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
+  void checkStages(VkPipelineStageFlags2 stages, const char* by);
   Object* bound_pipelines[2] = {nullptr, nullptr};
   std::map<uint32_t, Object*> bound_sets[2];
   void beginCommandBuffer();  // as vkBeginCommandBuffer: nothing is bound
 
 private:
   std::vector<std::unique_ptr<Object>> objects_;
-  std::set<const void*> addresses_;
+  std::unordered_set<const void*> addresses_;
+  std::map<VkDeviceAddress, Object*> device_addresses_;
+  VkDeviceAddress next_address_ = 0x5EED00000000;  // whose upper word is no number that shaders are given
 };
 
 // Where a buffer's bytes are; NULL: it has no memory.

@@ -31,11 +31,18 @@ protected:
   void render(const FlkFrame& frame) {
     scene.driver.commands.clear();
     ASSERT_EQ(scene.render(view, frame, &plan), FLK_SUCCESS) << scene.last_message;
-    expectPlanRecorded();
+    expectPlanRecorded(frame);
   }
 
-  // Raster passes in order with the indices that each draws, and compute passes with their groups.
-  void expectPlanRecorded() {
+  // A grid of groups of 64 items.
+  static std::vector<uint64_t> gridOf(uint64_t items) {
+    const uint64_t groups = (items + 63) / 64;
+    return {std::min<uint64_t>(groups, 32768), (groups + 32767) / 32768, 1};
+  }
+
+  // Raster passes in order with the indices that each draws, and compute passes with their groups. All hairs of the frame are
+  // taken to be in view and uploaded, those with host positions to be `moved`.
+  void expectPlanRecorded(const FlkFrame& frame) {
     std::vector<uint64_t> raster_indices;
     std::vector<std::vector<uint64_t>> dispatches;
     for (const mock::Command& command : scene.driver.commands) {
@@ -49,6 +56,21 @@ protected:
     for (const FlkPassInfo& pass : passesOf(plan)) {
       if (pass.indices) planned_indices.push_back(pass.indices);
       if (pass.groups[0]) planned_dispatches.push_back({pass.groups[0], pass.groups[1], pass.groups[2]});
+      uint64_t segments = 0;
+      for (bool more = pass.segments != 0; more; more = segments < pass.segments)  // once, or once a shadow map
+        for (uint32_t i = 0; i < frame.hair_count; ++i) {
+          FlkHairInfo info{};
+          ASSERT_EQ(flkHairGetInfo(frame.hairs[i], &info), FLK_SUCCESS);
+          planned_dispatches.push_back(gridOf(info.segment_count));
+          segments += info.segment_count;
+        }
+      EXPECT_EQ(segments, pass.segments) << pass.name;
+      if (pass.stage != FLK_STAGE_PREPARE) continue;
+      for (const FlkHair& hair_moved : moved) {
+        FlkHairInfo info{};
+        ASSERT_EQ(flkHairGetInfo(hair_moved, &info), FLK_SUCCESS);
+        planned_dispatches.push_back(gridOf(info.strand_count));
+      }
     }
     EXPECT_EQ(raster_indices, planned_indices);
     EXPECT_EQ(dispatches, planned_dispatches);
@@ -70,6 +92,7 @@ protected:
   forelock::Hair hair;
   forelock::View view;
   FlkPlan plan = nullptr;
+  std::vector<FlkHair> moved;
   uint64_t number = 0;
 };
 
@@ -104,24 +127,43 @@ TEST_F(Recording, hairThatWasNotUploadedIsLeftOut) {
   ASSERT_EQ(scene.render(view, frame, &plan), FLK_SUCCESS);
   EXPECT_EQ(scene.driver.countCommands("vkCmdDrawIndexed"), 0u);
   EXPECT_EQ(scene.message_ids.back(), "HAIR_NOT_UPLOADED");
+  // With host positions neither, nor by compute.
+  forelock::Hair moving;
+  FlkHairDesc desc = forelock::hairDesc();
+  desc.asset = asset;
+  desc.flags = FLK_HAIR_HOST_POSITIONS;
+  ASSERT_EQ(forelock::create(scene.context, desc, moving), FLK_SUCCESS);
+  FlkHairPositions positions{};
+  positions.address = scene.positions(1600);
+  for (int axis = 0; axis < 3; ++axis) positions.min_bounds[axis] = -0.1f, positions.max_bounds[axis] = 0.1f;
+  ASSERT_EQ(flkHairSetPositions(moving, &positions), FLK_SUCCESS);
+  ++number;
+  frame = scene.frame(number, number - 1, {moving});
+  frame.capture = FLK_CAPTURE_COMPUTE;
+  scene.driver.commands.clear();
+  ASSERT_EQ(scene.render(view, frame, &plan), FLK_SUCCESS);
+  EXPECT_EQ(scene.driver.countCommands("vkCmdDispatch"), 1u);  // the resolve
+  scene.driver.completed = number;
 }
 
 TEST_F(Recording, everyMethodAndDisplay) {
-  for (uint32_t method = 0; method <= FLK_METHOD_FORWARD; ++method)
+  for (uint32_t method = 0; method <= FLK_METHOD_HARD; ++method)
     for (uint32_t display = 0; display <= FLK_DISPLAY_LAYERS; ++display)
       for (uint32_t payload = 0; payload <= FLK_PAYLOAD_PAPER; ++payload)
-        for (const bool depth : {false, true})
-          for (const bool shadow : {false, true}) {
-            FlkFrame frame = next();
-            frame.method = method;
-            frame.display = display;
-            frame.payload = payload;
-            scene.light.casts_shadow = shadow;
-            if (!depth) frame.depth = FlkDepthSource{};
-            render(frame);
-            const bool planned = infoOf(plan).full_shade_taps > 0 || hasResource("shadow map");
-            EXPECT_EQ(planned, shadow && display == FLK_DISPLAY_SHADED) << method << ' ' << display;
-          }
+        for (uint32_t capture = FLK_CAPTURE_RASTER; capture <= FLK_CAPTURE_COMPUTE; ++capture)
+          for (const bool depth : {false, true})
+            for (const bool shadow : {false, true}) {
+              FlkFrame frame = next();
+              frame.method = method;
+              frame.display = display;
+              frame.payload = payload;
+              frame.capture = capture;
+              scene.light.casts_shadow = shadow;
+              if (!depth) frame.depth = FlkDepthSource{};
+              render(frame);
+              const bool planned = infoOf(plan).full_shade_taps + infoOf(plan).low_shade_taps > 0 && hasResource("shadow map");
+              EXPECT_EQ(planned, shadow && display == FLK_DISPLAY_SHADED) << method << ' ' << display;
+            }
   EXPECT_TRUE(scene.clean());
 }
 
@@ -254,7 +296,8 @@ TEST_F(Recording, timesOfPasses) {
   FlkStatistics statistics;
   ASSERT_EQ(flkViewGetStatistics(view, number, &statistics), FLK_SUCCESS);
   EXPECT_EQ(statistics.frame_number, number);
-  for (const double time : statistics.milliseconds) EXPECT_NEAR(time, 1.0, 1e-9);
+  for (uint32_t stage = 0; stage < FLK_STAGE_COUNT; ++stage)
+    EXPECT_NEAR(statistics.milliseconds[stage], stage == FLK_STAGE_PREPARE || stage == FLK_STAGE_OUTPUT ? -1.0 : 1.0, 1e-9) << stage;
 
   scene.light.casts_shadow = 0;
   render(next());

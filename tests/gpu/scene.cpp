@@ -97,6 +97,23 @@ ViewSpec frameStrands(const StrandArrays& strands, int width, int height) {
   return view;
 }
 
+ViewSpec storedView(const char* name) {
+  const samples::Recipe recipe = samples::openRecipe("groom:paper-load");
+  for (const samples::RecipeCamera& camera : recipe.cameras) {
+    if (camera.name != name) continue;
+    ViewSpec view;
+    view.width = int(camera.width), view.height = int(camera.height);
+    view.eye = {camera.eye.x, camera.eye.y, camera.eye.z};
+    view.target = {camera.target.x, camera.target.y, camera.target.z};
+    view.up = {camera.up.x, camera.up.y, camera.up.z};
+    view.projection.tan_half_y = std::tan(camera.vertical_fov_deg * 3.14159265358979323846 / 360);
+    view.projection.near_plane = camera.near_m, view.projection.far_plane = camera.far_m;
+    return view;
+  }
+  ADD_FAILURE() << "paper-load has no camera " << name;
+  return {};
+}
+
 Scene::Scene(const StrandArrays& strands, const FlkMaterial& look, const ViewSpec& spec, uint32_t flags, uint32_t seed)
     : view_spec(spec), material(look) {
   FlkStrands arrays{};

@@ -46,6 +46,8 @@ struct ViewSpec {
 };
 // A view of all strands from the front right.
 ViewSpec frameStrands(const StrandArrays& strands, int width, int height);
+// A camera that the groom paper-load stores.
+ViewSpec storedView(const char* name);
 
 // Owns a hair and a view on the device, and the same as a reference scene.
 class Scene {

@@ -38,7 +38,8 @@ struct FragmentLists {
 };
 
 // What a node keeps of a fragment (section 3). `unquantised` keeps float64 and drops only alpha = 0.
-enum class Payload { unquantised, standard, paper };
+// `kept`: float64 values of the fragments that `standard` keeps.
+enum class Payload { unquantised, kept, standard, paper };
 
 // Opacity modifiers of section 2.
 struct NearFade {

@@ -15,8 +15,9 @@ void fold(double& p, double& q) {
 }  // namespace
 
 double codedAlpha(double alpha, Payload payload) {
-  if (payload == Payload::standard) {
+  if (payload == Payload::standard || payload == Payload::kept) {
     const double q = std::floor(std::sqrt(alpha) * 1023 + 0.5) / 1023;
+    if (payload == Payload::kept) return q > 0 ? alpha : 0;
     return q * q;
   }
   if (payload == Payload::paper) return alpha < 1.0 / 255 ? 0 : std::floor(alpha * 255 + 0.5) / 255;
@@ -46,7 +47,7 @@ Vec3 tangentOf(uint32_t code, int bits) {
 }
 
 Vec3 codedTangent(Vec3 tangent, Payload payload) {
-  if (payload == Payload::unquantised) return tangent;
+  if (payload == Payload::unquantised || payload == Payload::kept) return tangent;
   const int bits = payload == Payload::standard ? 11 : 12;
   return tangentOf(tangentCode(tangent, bits), bits);
 }

@@ -26,7 +26,7 @@ std::array<double, 3> fibreColor(const Material& material, const ScreenSegment& 
 }
 
 std::array<double, 3> codedColor(const std::array<double, 3>& color, Payload payload) {
-  if (payload == Payload::unquantised) return color;
+  if (payload == Payload::unquantised || payload == Payload::kept) return color;
   const double mantissas = std::exp2(mantissa_bits);
   const double brightest = (mantissas - 1) / mantissas * std::exp2(exponent_max - exponent_bias);
   std::array<double, 3> c{};

@@ -117,7 +117,7 @@ FLK_API void flkMaterialDefault(FlkMaterial* material);
 enum {
   FLK_HAIR_KEEP_ORDER = 1u,  /* draw strands in the asset's order, not shuffled */
   FLK_HAIR_IGNORE_COLORS = 2u, /* leave the asset's vertex colours out, and their memory */
-  FLK_HAIR_HOST_POSITIONS = 4u /* positions will come from flkHairSetPositions: 36 bytes more a strand */
+  FLK_HAIR_HOST_POSITIONS = 4u /* positions will come from flkHairSetPositions: 12 bytes more a vertex, 36 a strand */
 };
 
 /* A picture of the scalp: each strand's colours are multiplied by the pixel at its root's UV (docs/methods.md section 2). */
@@ -161,8 +161,8 @@ FLK_API FlkResult flkCmdUpload(VkCommandBuffer cmd, FlkHair hair);
  * the hair. */
 FLK_API void flkHairReleaseStaging(FlkHair hair);
 
-/* Rigid transform, with a uniform scale if need be, as a column-major 4x4 (last row 0 0 0 1), from asset to world. Widths
- * scale by the cube root of its determinant. Holds for plans made afterwards. */
+/* Rigid transform, with a uniform scale if need be, as a column-major 4x4 (last row 0 0 0 1), from asset to world, values
+ * within 1e15. Widths scale by the cube root of its determinant. Holds for plans made afterwards. */
 FLK_API FlkResult flkHairSetTransform(FlkHair hair, const double world_from_hair[16]);
 /* The transform that the frame before drew it with, for velocity. NULL: the same as now, which is also how a hair starts.
  * Holds for plans made afterwards. */
@@ -270,7 +270,7 @@ typedef struct FlkLight {
   uint32_t casts_shadow;   /* 1: hair attenuates it, through a shadow map of this view */
   uint32_t shadow_size;    /* texels a side, even [64, 8192]; optional: 0 is 1024. A point light amid hair has six maps */
   uint32_t kind;           /* FLK_LIGHT_...; optional: 0 is directional */
-  double position[3];      /* point, spot: world space */
+  double position[3];      /* point, spot: world space (metre), within 1e15 of the origin */
   float range;             /* point, spot: nothing arrives beyond (metre) >= 0; optional: 0 is no end */
   float source_radius;     /* point, spot: radiance is that of this distance for all that is nearer (metre); 0 is 1 mm */
   float inner_angle, outer_angle; /* spot: half angles of full light and of none (radian) 0 <= inner < outer <= pi / 2 */
@@ -356,12 +356,13 @@ typedef struct FlkFrame {
   const void* next; /* NULL */
   uint64_t frame_number;     /* of this view; rises with every plan, from 1 */
   uint64_t completed_frame;  /* the last frame of this view whose commands the host knows to have completed; 0: none */
-  double view_from_world[16];/* rigid */
+  double view_from_world[16];/* rigid, values within 1e15 */
   float clip_from_view[16];  /* perspective or orthographic, Vulkan clip space */
   uint32_t reversed_depth;   /* 1: near is depth 1 */
   uint32_t hair_count;       /* [0, 63] */
   const FlkHair* hairs;      /* in drawing order; each at most once */
-  uint32_t light_count;      /* [0, 4096], with at most 96 hair shadow maps of together maxImageDimension2D squared texels */
+  uint32_t light_count;      /* [0, 4096], with at most 96 hair shadow maps, which share one image (FLK_ERROR_LIMIT: they
+                                do not fit into maxImageDimension2D squared) */
   const FlkLight* lights;
   float ambient[3];          /* radiance from everywhere, >= 0 */
   float exposure;            /* FLK_METHOD_FORWARD with FLK_PAYLOAD_PAPER cuts colours at 1 / exposure; optional: 0 is 1 */

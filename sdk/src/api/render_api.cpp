@@ -74,7 +74,7 @@ const char* lightFault(const FlkLight& light) {
     return "light.shadow_size must be even and lie in [64, 8192]";
   if (light.kind != FLK_LIGHT_DIRECTIONAL) {
     for (double c : light.position)
-      if (!std::isfinite(c)) return "light.position must be finite";
+      if (!(std::abs(c) <= 1e15)) return "light.position must lie within 1e15 of the origin";
     if (!within(light.range, 0, 1e30f)) return "light.range must be finite and not negative";
     if (!within(light.source_radius, 0, 1e15f)) return "light.source_radius must be finite and not negative";
   }
@@ -242,7 +242,7 @@ const char* rootImageFault(const FlkRootImage& image, const FlkStrands& strands)
 // Null, or why `matrix` places nothing.
 const char* transformFault(const double* matrix, forelock::Mat4& m) {
   for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(matrix[i])) return "world_from_hair holds a value that is not finite";
+    if (!(std::abs(matrix[i]) <= 1e15)) return "world_from_hair holds a value that is not within 1e15";
     m[i] = matrix[i];
   }
   if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) return "the last row of world_from_hair must be 0 0 0 1";

@@ -8,7 +8,9 @@
 namespace forelock {
 namespace {
 
-constexpr double kLeastSourceRadius = 1e-3;  // metre
+constexpr double kDefaultSourceRadius = 1e-3;  // metre
+
+double sourceRadius(const FlkLight& light) { return light.source_radius > 0 ? double(light.source_radius) : kDefaultSourceRadius; }
 
 gpu::mat4x3 toMat4x3(const Mat4& m) {
   gpu::mat4x3 r;
@@ -73,7 +75,7 @@ void ambientConstants(const FlkFrame& asked, const Camera& camera, gpu::FrameCon
 double mostArriving(const FlkLight& light, const Sphere& hairs) {
   if (light.kind == FLK_LIGHT_DIRECTIONAL) return 1;
   const double away = length(hairs.center - Vec3{light.position[0], light.position[1], light.position[2]}) - hairs.radius;
-  const double nearest = std::max({away, double(light.source_radius), kLeastSourceRadius});
+  const double nearest = std::max(away, sourceRadius(light));
   return 1 / (nearest * nearest);
 }
 
@@ -107,8 +109,7 @@ gpu::LightConstants lightConstants(const FlkLight& light, const LightFacts& fact
   } else {
     g.place = toVec3(transformPoint(view, facts.position));
     g.inverse_range = light.range > 0 ? 1 / light.range : 0;
-    const double radius = std::max(double(light.source_radius), kLeastSourceRadius);
-    g.source_radius_squared = float(radius * radius);
+    g.source_radius_squared = float(sourceRadius(light) * sourceRadius(light));
   }
   if (light.kind == FLK_LIGHT_SPOT) {
     g.axis = toVec3(transformDirection(view, facts.direction * -1.0));

@@ -108,16 +108,8 @@ FlkResult Hair::init(const FlkHairDesc& desc, const FlkStrands& strands) {
   bytes_[kSources] = takes_host_positions_ ? uint64_t(strand_count) * sizeof(gpu::StrandSource) : 0;
   bytes_[kMoved] = takes_host_positions_ ? bytes_[kPositions] : 0;
 
-  bounds_.min = bounds_.max = positionOf(strands, 0);
-  for (uint32_t i = 0; i < strands.vertex_count; ++i) {
-    const Vec3 p = positionOf(strands, i);
-    for (int axis = 0; axis < 3; ++axis)
-      bounds_.min[axis] = std::min(bounds_.min[axis], p[axis]), bounds_.max[axis] = std::max(bounds_.max[axis], p[axis]);
-    radius_max = std::max(radius_max, strands.radii[i]);
-  }
-  const double beside = desc.follow.count ? double(desc.follow.radius) * std::max(1.0, double(spread_tip)) : 0;
-  for (int axis = 0; axis < 3; ++axis) bounds_.min[axis] -= beside, bounds_.max[axis] += beside;
-  follow_reach_ = beside;
+  for (uint32_t i = 0; i < strands.vertex_count; ++i) radius_max = std::max(radius_max, strands.radii[i]);
+  follow_reach_ = desc.follow.count ? double(desc.follow.radius) * std::max(1.0, double(spread_tip)) : 0;
 
   const char* names[kPartCount] = {"hair positions", "hair attributes", "hair segments",
                                    "hair colours",   "strand sources",  "moved positions"};
@@ -160,6 +152,7 @@ void Hair::fill(const FlkStrands& strands, const FlkHairDesc& desc, unsigned cha
 
   uint32_t vertex = 0;
   length_ = 0;
+  bounds_.min = bounds_.max = positionOf(strands, 0);
   for (const uint32_t number : order) {
     const uint32_t guide = number / copies, follow = number % copies;
     const uint32_t begin = strands.first_vertex[guide], end = strands.first_vertex[guide + 1];
@@ -167,9 +160,22 @@ void Hair::fill(const FlkStrands& strands, const FlkHairDesc& desc, unsigned cha
     double strand_length = 0;
     for (uint32_t i = begin; i + 1 < end; ++i) strand_length += segmentLength(i);
     length_ += strand_length;
-    if (!store) continue;
     const Vec3 rest = restDirection(strands, begin, end);
     const Vec3 offset = follow ? followOffset(desc.follow, guide, follow, rest) : Vec3{};
+    const auto place = [&](uint32_t i, double fraction) {
+      const Vec3 p = positionOf(strands, i) + offset * (1 + (double(spread_tip) - 1) * fraction);
+      for (int axis = 0; axis < 3; ++axis)
+        bounds_.min[axis] = std::min(bounds_.min[axis], p[axis]), bounds_.max[axis] = std::max(bounds_.max[axis], p[axis]);
+      return p;
+    };
+    if (!store) {
+      double walked = 0;
+      for (uint32_t i = begin; i < end; ++i) {
+        place(i, std::min(walked / strand_length, 1.0));
+        if (i + 1 < end) walked += segmentLength(i);
+      }
+      continue;
+    }
     if (sources)
       *sources++ = {vertex, begin, end - begin, {float(offset[0]), float(offset[1]), float(offset[2])},
                     {float(rest[0]), float(rest[1]), float(rest[2])}};
@@ -183,7 +189,7 @@ void Hair::fill(const FlkStrands& strands, const FlkHairDesc& desc, unsigned cha
       const double radius = radius_max > 0 ? std::sqrt(double(strands.radii[i]) / radius_max) : 0;
       const double fraction = std::min(walked / strand_length, 1.0);  // an asset holds no strand without length
       const uint32_t fraction_code = uint32_t(std::lround(fraction * FLK_FRACTION_STEPS));
-      const Vec3 p = positionOf(strands, i) + offset * (1 + (double(spread_tip) - 1) * fraction);
+      const Vec3 p = place(i, fraction);
       for (int axis = 0; axis < 3; ++axis) positions[std::size_t(vertex) * 3 + std::size_t(axis)] = float(p[axis]);
       attributes[vertex] = uint32_t(std::lround(radius * FLK_RADIUS_STEPS)) | fraction_code << FLK_FRACTION_SHIFT |
                            hash << FLK_HASH_SHIFT;

@@ -357,6 +357,7 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   for (uint32_t i = 0; i < asked.opacity_modifier_count; ++i) facts.modifiers |= asked.opacity_modifiers[i].kind << 2 * i;
   for (uint32_t i = 0; i < FLK_OUTPUT_COUNT; ++i) facts.outputs |= asked.outputs[i].view ? 1u << i : 0;
   facts.has_depth = asked.depth.view != VK_NULL_HANDLE;
+  facts.frames_in_flight = uint32_t(frames_.size());
   facts.timestamps = asked.timestamps && (device.planning() || device.timestamp_bits > 0);
   if (!device.planning()) facts.image_limit = std::min(limits.maxImageDimension2D, limits.maxFramebufferWidth);
 

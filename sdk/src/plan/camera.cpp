@@ -19,7 +19,7 @@ double Camera::pixelsPerMetre(double view_depth) const {
 const char* makeCamera(const double view_from_world[16], const float clip_from_view[16], bool reversed_depth,
                        uint32_t width, uint32_t height, Camera& camera) {
   for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(view_from_world[i])) return "view_from_world holds a value that is not finite";
+    if (!(std::abs(view_from_world[i]) <= 1e15)) return "view_from_world holds a value that is not within 1e15";
     if (!std::isfinite(clip_from_view[i])) return "clip_from_view holds a value that is not finite";
     camera.view_from_world[i] = view_from_world[i];
   }

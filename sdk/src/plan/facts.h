@@ -63,6 +63,7 @@ struct FrameFacts {
   uint32_t outputs = 0;                // bit FLK_OUTPUT_...
   bool has_depth = false;
   bool timestamps = false;
+  uint32_t frames_in_flight = 3;       // whose counts are read back
   uint32_t image_limit = 16384;        // texels a side
 };
 

@@ -127,8 +127,8 @@ void planPasses(const FrameFacts& facts, uint64_t all_segments, FramePlan& plan)
     plan.resources.add({ResourceId::aggregates, "aggregates", pixels * FLK_AGGREGATE_WORDS * 4, true,
                         "16 bytes a pixel for fragments that find the lists full"});
   plan.resources.add({ResourceId::counters, "counters", FLK_COUNTER_WORDS * 4, true, "the exact fragment count"});
-  plan.resources.add({ResourceId::read_back, "read-back", FLK_COUNTER_WORDS * 4, true,
-                      "the count, for sizing the next frame's lists"});
+  plan.resources.add({ResourceId::read_back, "read-back", uint64_t(facts.frames_in_flight) * FLK_COUNTER_WORDS * 4, true,
+                      "the count of each frame in flight, for sizing the next frame's lists"});
   if (plan.hasShadow())
     plan.resources.add({ResourceId::shadow_map, "shadow map", uint64_t(plan.shadow.width) * plan.shadow.height * 4, true,
                         "depth of the hair's front towards each light that casts shadows"});

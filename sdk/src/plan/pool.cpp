@@ -16,7 +16,7 @@ uint64_t choosePoolCapacity(PoolState& state, uint64_t estimate, uint64_t limit)
   auto rounded = [&](double nodes) {
     return std::clamp(uint64_t((nodes + double(kGrain - 1)) / kGrain) * kGrain, uint64_t(1), limit);
   };
-  if (state.last_estimate == 0 || state.last_count == 0) return std::max(state.capacity, rounded(double(estimate)));
+  if (state.last_estimate == 0 || state.last_count == 0) return std::min(std::max(state.capacity, rounded(double(estimate))), limit);
 
   // A camera that came nearer since the count has more to store, in proportion to the estimates.
   const double growth = std::max(1.0, double(estimate) / double(state.last_estimate));

@@ -10,6 +10,7 @@ constexpr double kMargin = 3;           // texels that taps may reach past the l
 constexpr double kSphereFits = 1.25;    // distance over radius from which one map sees the sphere
 constexpr double kWidestCone = 1.0471975511965976;  // 60 degrees
 constexpr double kNearShare = 1e-3;     // of the sphere's radius
+constexpr double kMostFocal = 1e15;     // texels: of a light so far or so narrow that it is a ray, to stay finite as float
 
 Sphere hairSphere(const HairFacts& hair) {
   const double scale = std::cbrt(std::abs(determinant3(hair.world_from_hair)));
@@ -56,7 +57,7 @@ ShadowFace coneFace(const Sphere& sphere, const Vec3& position, const Vec3& axis
   const double distance = length(sphere.center - position);
   ShadowFace face;
   face.map_from_world = fromWorld(axesAbout(axis), position, 1);
-  face.focal = (size * 0.5 - kMargin) / std::tan(half_angle);
+  face.focal = std::min((size * 0.5 - kMargin) / std::tan(half_angle), kMostFocal);
   face.texel = 1 / face.focal;
   face.range = distance + sphere.radius;
   face.near = std::max((distance - sphere.radius) * widest_cosine, kNearShare * sphere.radius);
@@ -129,8 +130,10 @@ const char* layoutShadowMaps(std::span<const LightFacts> lights, std::span<const
     area += double(layout.faces.items[i].size) * layout.faces.items[i].size;
     widest = std::max(widest, layout.faces.items[i].size);
   }
-  std::stable_sort(order.begin(), order.begin() + layout.faces.count,
-                   [&](uint32_t a, uint32_t b) { return layout.faces.items[a].size > layout.faces.items[b].size; });
+  std::sort(order.begin(), order.begin() + layout.faces.count, [&](uint32_t a, uint32_t b) {
+    const uint32_t size_a = layout.faces.items[a].size, size_b = layout.faces.items[b].size;
+    return size_a != size_b ? size_a > size_b : a < b;
+  });
   const uint32_t columns = uint32_t(std::ceil(std::sqrt(area) / widest));
   const uint64_t width = std::min<uint64_t>(uint64_t(columns) * widest, std::max(limit, widest));
   uint64_t x = 0, y = 0, shelf = 0;

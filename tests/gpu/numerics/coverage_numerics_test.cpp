@@ -1,8 +1,9 @@
-// Row G8 and the coverage of strips at every width, angle, offset and pixel aspect; depth values.
+// Row G8 and the coverage of strips at every width, angle, offset and pixel aspect; pixels of hard strands; depth values.
 #include "numerics_kit.h"
 #include "numerics_spv/numerics_coverage.h"
 #include "numerics_spv/numerics_depth.h"
 #include "numerics_spv/numerics_edge.h"
+#include "numerics_spv/numerics_hard.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +42,7 @@ std::vector<StripSums> sums(const std::vector<Strip>& strips) {
     const double off = double(s.offset) / kOffsets;
     add(in, {upright ? 960 + off : 540.5, upright ? 540.5 : 960 + off, tx, ty, radius, sx, sy, s.opacity, kLength});
   }
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_coverage, in, 9, 3);
+  const std::vector<float> out = runItems(numerics_coverage, in, 9, 3);
   std::vector<StripSums> result(out.size() / 3);
   for (std::size_t i = 0; i < result.size(); ++i)
     result[i] = {double(out[i * 3]) * share[i], double(out[i * 3 + 1]) * share[i], double(out[i * 3 + 2]) * share[i]};
@@ -93,7 +94,7 @@ TEST(Coverage, EdgeOfAPixel) {
                                        : reference::pixelHalfArea(double(float(t)), double(nx), double(ny)));
     }
   }
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_edge, in, 3, 1);
+  const std::vector<float> out = runItems(numerics_edge, in, 3, 1);
   ASSERT_EQ(out.size(), expected.size());
   Worst error;
   for (std::size_t i = 0; i < out.size(); ++i) error.see(std::fabs(double(out[i]) - expected[i]));
@@ -173,7 +174,7 @@ TEST(Depth, LinearFromBuffer) {
       in.insert(in.end(), {value, float(p.p22), float(p.p32), float(p.orthographic)});
       expected.push_back(0);
     }
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_depth, in, 4, 1);
+  const std::vector<float> out = runItems(numerics_depth, in, 4, 1);
   ASSERT_EQ(out.size(), expected.size());
   Worst relative;
   std::size_t nans = 0;
@@ -191,6 +192,60 @@ TEST(Depth, LinearFromBuffer) {
          "< 1e-6", format(relative.value()));
   record("other", "linear depth of values outside [0, 1], perspective: negative, infinite or NaN", "0",
          std::to_string(nans));
+}
+
+// FLK_METHOD_HARD: a pixel is in the box around the axis, at least a pixel wide, and at a joint in one of both segments.
+TEST(Coverage, BoxesOfHardStrands) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  struct Point {
+    double x, y, l, x_next, y_next, h, side;  // along either segment's axes, and of the line that splits them
+  };
+  std::vector<float> in;
+  std::vector<Point> points;
+  for (int strand = 0; strand < 400; ++strand) {
+    const double h = strand % 4 == 0 ? 0.01 : 6 * uniform(random), l = 8 + 20 * uniform(random);
+    const double heading = 2 * std::numbers::pi * uniform(random), bend = (2 * uniform(random) - 1) * 120 * kDegree;
+    const double a[2] = {300 * uniform(random), -200 * uniform(random)};
+    const double b[2] = {a[0] + l * std::cos(heading), a[1] + l * std::sin(heading)};
+    const double c[2] = {b[0] + l * std::cos(heading + bend), b[1] + l * std::sin(heading + bend)};
+    for (int i = 0; i < 100; ++i) {
+      // A third of them beside the joint, where the two meet.
+      const double* around = i % 3 ? (i % 2 ? a : c) : b;
+      const double x = std::floor(around[0] + 24 * (uniform(random) - 0.5)) + 0.5,
+                   y = std::floor(around[1] + 24 * (uniform(random) - 0.5)) + 0.5;
+      add(in, {a[0], a[1], b[0], b[1], c[0], c[1], h, x, y});
+      const Vec3 t{std::cos(heading), std::sin(heading), 0}, u{std::cos(heading + bend), std::sin(heading + bend), 0};
+      const Vec3 from_a{x - a[0], y - a[1], 0}, from_b{x - b[0], y - b[1], 0};
+      points.push_back({cross(t, from_a).z, dot(from_a, t), l, cross(u, from_b).z, dot(from_b, u), std::max(h, 0.5),
+                        dot(from_b, sum(t, u))});
+    }
+  }
+  const std::vector<float> out = runItems(numerics_hard, in, 9, 3);
+  ASSERT_EQ(out.size(), points.size() * 3);
+  std::size_t wrong = 0, both = 0, neither = 0, near = 0, inside = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& p = points[i];
+    both += out[i * 3] > 0 && out[i * 3 + 1] > 0;
+    inside += out[i * 3 + 2] > 0;
+    // 300 pixels from the middle fp32 steps are 3e-5.
+    const double edge = std::min({std::fabs(std::fabs(p.x) - p.h), std::fabs(p.y), std::fabs(p.y - p.l)});
+    if (edge < 1e-3)
+      ++near;
+    else
+      wrong += (out[i * 3 + 2] > 0) != (std::fabs(p.x) <= p.h && p.y >= 0 && p.y < p.l);
+    const bool clear =
+        p.h - std::fabs(p.x) > 1e-3 && p.h - std::fabs(p.x_next) > 1e-3 && p.y > 1e-3 && p.l - p.y_next > 1e-3;
+    neither += clear && !(out[i * 3] > 0) && !(out[i * 3 + 1] > 0);
+  }
+  EXPECT_GT(inside, points.size() / 50);
+  EXPECT_LT(near, points.size() / 100);
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_EQ(both + neither, 0u);
+  record("coverage", "hard strands, 0.02 to 12 px, pixels in and around their boxes: not as the box has it", "0",
+         std::to_string(wrong));
+  record("coverage", "hard strands, bends to 120 degrees, pixels at the joint: in both segments, in neither", "0, 0",
+         std::to_string(both) + ", " + std::to_string(neither));
 }
 
 }  // namespace

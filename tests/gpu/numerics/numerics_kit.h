@@ -1,7 +1,7 @@
 // What the numerics tests share: arrays of inputs, directions, values that a hostile caller would send.
 #pragma once
 
-#include "compute_device.h"
+#include "run_items.h"
 #include "reference.h"
 #include "stability.h"
 

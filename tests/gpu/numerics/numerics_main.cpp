@@ -1,6 +1,5 @@
 // test_gpu_numerics [--write-stability PATH]: PATH (or the variable FORELOCK_WRITE_STABILITY) receives
 // docs/stability.md.
-#include "compute_device.h"
 #include "stability.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // Row G7 and the other payload codings.
 #include "numerics_kit.h"
+#include "numerics_spv/numerics_color.h"
 #include "numerics_spv/numerics_payload.h"
 #include "numerics_spv/numerics_tangent.h"
 
@@ -11,19 +12,19 @@ namespace forelock::test {
 namespace {
 
 struct Coded {
-  uint32_t code[2];  // 11 + 11 bits, 12 + 12 bits
-  Vec3 decoded[2];
+  uint32_t code[3];  // 11 + 11 bits, 12 + 12 bits, 13 + 13 bits
+  Vec3 decoded[3];
 };
 
 std::vector<Coded> code(const std::vector<Vec3>& directions) {
   std::vector<float> in;
   in.reserve(directions.size() * 3);
   for (const Vec3 d : directions) add(in, d);
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_tangent, in, 3, 11);
-  std::vector<Coded> coded(out.size() / 11);
+  const std::vector<float> out = runItems(numerics_tangent, in, 3, 15);
+  std::vector<Coded> coded(out.size() / 15);
   for (std::size_t i = 0; i < coded.size(); ++i)
-    for (std::size_t c = 0; c < 2; ++c)
-      coded[i].code[c] = word(out[i * 11 + 3 + 4 * c]), coded[i].decoded[c] = at(out, i * 11 + 4 + 4 * c);
+    for (std::size_t c = 0; c < 3; ++c)
+      coded[i].code[c] = word(out[i * 15 + 3 + 4 * c]), coded[i].decoded[c] = at(out, i * 15 + 4 + 4 * c);
   return coded;
 }
 
@@ -38,7 +39,7 @@ TEST(TangentCode, Angles) {
   std::vector<Vec3> directions;
   for (std::size_t i = 0; i < 1000000; ++i) directions.push_back(fibonacci(i, 1000000));
   std::mt19937 random(5);
-  for (const int bits : {11, 12}) {
+  for (const int bits : {11, 12, 13}) {
     const int steps = (1 << bits) - 2;
     std::uniform_int_distribution<int> any(0, steps - 1);
     for (int i = 0; i < 300000; ++i) directions.push_back(cellCorner(any(random), any(random), steps));
@@ -52,10 +53,10 @@ TEST(TangentCode, Angles) {
   }
   const std::vector<Coded> coded = code(directions);
   ASSERT_EQ(coded.size(), directions.size());
-  Worst angle[2], length_error;
-  double square[2] = {};
+  Worst angle[3], length_error;
+  double square[3] = {};
   for (std::size_t i = 0; i < coded.size(); ++i)
-    for (std::size_t c = 0; c < 2; ++c) {
+    for (std::size_t c = 0; c < 3; ++c) {
       const double a = angleBetween(directions[i], coded[i].decoded[c]) / kDegree;
       angle[c].see(a);
       if (i < 1000000) square[c] += a * a / 1000000;
@@ -64,13 +65,18 @@ TEST(TangentCode, Angles) {
   EXPECT_LE(angle[1].value(), 0.06);
   // Half as many levels: twice the angle.
   EXPECT_LE(angle[0].value(), 0.12);
+  // Twice as many: half of it.
+  EXPECT_LE(angle[2].value(), 0.03);
   EXPECT_LE(length_error.value(), 1e-6);
   record("G7", "24-bit tangent (paper coding), all directions: largest angle", "<= 0.06 degrees",
          format(angle[1].value()) + " degrees");
   record("G7", "22-bit tangent (default coding), all directions: largest angle", "<= 0.12 degrees",
          format(angle[0].value()) + " degrees");
-  record("G7", "rms angle of 24 and of 22 bits", "reported",
-         format(std::sqrt(square[1])) + ", " + format(std::sqrt(square[0])) + " degrees");
+  record("G7", "26-bit tangent (hard), all directions: largest angle", "<= 0.03 degrees",
+         format(angle[2].value()) + " degrees");
+  record("G7", "rms angle of 26, of 24 and of 22 bits", "reported",
+         format(std::sqrt(square[2])) + ", " + format(std::sqrt(square[1])) + ", " + format(std::sqrt(square[0])) +
+             " degrees");
 }
 
 TEST(TangentCode, Highlight) {
@@ -119,7 +125,7 @@ TEST(TangentCode, AxesAreExact) {
   for (std::size_t i = 0; i < axes.size(); ++i)
     for (const Vec3 d : coded[i].decoded) wrong += !(d.x == axes[i].x && d.y == axes[i].y && d.z == axes[i].z);
   EXPECT_EQ(wrong, 0u);
-  record("other", "axes through either tangent code: not equal", "0", std::to_string(wrong));
+  record("other", "axes through each tangent code: not equal", "0", std::to_string(wrong));
 }
 
 TEST(TangentCode, Stable) {
@@ -129,7 +135,7 @@ TEST(TangentCode, Stable) {
   const std::vector<Coded> once = code(directions);
   ASSERT_EQ(once.size(), directions.size());
   Worst drift;
-  for (std::size_t c = 0; c < 2; ++c) {
+  for (std::size_t c = 0; c < 3; ++c) {
     std::vector<Vec3> decoded;
     for (const Coded& o : once) decoded.push_back(o.decoded[c]);
     const std::vector<Coded> twice = code(decoded);
@@ -146,7 +152,7 @@ struct Stored {
 };
 
 std::vector<Stored> store(const std::vector<float>& in) {
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_payload, in, 6, 7);
+  const std::vector<float> out = runItems(numerics_payload, in, 6, 7);
   std::vector<Stored> stored(out.size() / 7);
   for (std::size_t i = 0; i < stored.size(); ++i)
     stored[i] = {word(out[i * 7]), double(out[i * 7 + 1]), double(out[i * 7 + 6]), at(out, i * 7 + 3)};
@@ -232,6 +238,82 @@ TEST(ColorCode, RoundTripAndHostile) {
       "other",
       "forward colour of NaN, infinite, negative, huge radiance: spills into other bits, or decodes outside [0, range]",
       "0", std::to_string(wrong));
+}
+
+struct SharedColor {
+  uint32_t word;
+  Vec3 color;
+};
+
+std::vector<SharedColor> shareExponent(const std::vector<Vec3>& colors) {
+  std::vector<float> in;
+  for (const Vec3 c : colors) add(in, c);
+  const std::vector<float> out = runItems(numerics_color, in, 3, 4);
+  std::vector<SharedColor> shared(out.size() / 4);
+  for (std::size_t i = 0; i < shared.size(); ++i) shared[i] = {word(out[i * 4]), at(out, i * 4 + 1)};
+  return shared;
+}
+
+TEST(SharedExponent, RoundTripAndHostile) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Vec3> colors = {{1, 1, 1}, {0, 0, 0}, {65408, 0, 1}, {0x1p-24, 0, 0}, {0.999999, 0.5, 0.25}};
+  for (int e = -22; e <= 15; ++e)
+    for (int i = 0; i < 400; ++i) {
+      const double largest = std::exp2(e + uniform(random));
+      Vec3 c{largest, largest * uniform(random), largest * std::exp2(-10 * uniform(random))};
+      if (i % 3 == 1) std::swap(c.x, c.y);
+      if (i % 3 == 2) std::swap(c.x, c.z);
+      colors.push_back(c);
+    }
+  // The last value below each carry: 511.5 steps round up into the next exponent.
+  for (int e = -14; e <= 15; ++e)
+    for (const double steps : {511.4999, 511.5, 511.9999}) colors.push_back({std::ldexp(steps, e - 9), 0, 0});
+  const std::vector<SharedColor> out = shareExponent(colors);
+  ASSERT_EQ(out.size(), colors.size());
+  Worst error, against_twin;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Vec3 c = toFloat(colors[i]), d = out[i].color;
+    const double largest = std::max({c.x, c.y, c.z});
+    const std::array<double, 3> twin = reference::codedColor({c.x, c.y, c.z}, reference::Payload::standard);
+    // What exceeds the largest code is cut to it, and below 2^-15 steps no longer shrink.
+    const double scale = std::max(std::min(largest, 65408.0), 0x1p-15);
+    const double cut[3] = {std::min(c.x, 65408.0), std::min(c.y, 65408.0), std::min(c.z, 65408.0)},
+                 decoded[3] = {d.x, d.y, d.z};
+    for (std::size_t k = 0; k < 3; ++k) {
+      error.see(std::fabs(decoded[k] - cut[k]) / scale);
+      against_twin.see(std::fabs(decoded[k] - twin[k]) / scale);
+    }
+  }
+  // Half a step of 1/256 or less of the largest channel.
+  EXPECT_LE(error.value(), 1.0 / 512);
+  record("other", "colour of nine bits and a shared exponent: largest error, share of the largest channel", "<= 1/512",
+         "1/" + format(1 / error.value()));
+  EXPECT_EQ(against_twin.value(), 0);
+  record("other", "the same against its twin", "0", format(against_twin.value()));
+
+  std::vector<Vec3> hostile;
+  const double nan = double(kNan), inf = double(kInf);
+  for (const double v : {nan, inf, -inf, -1.0, 65408.5, 65536.0, 3e38, double(kDenormal), 1e-30, 2.9e-8})
+    for (int where = 0; where < 3; ++where)
+      hostile.push_back({where == 0 ? v : 0.25, where == 1 ? v : 0.25, where == 2 ? v : 0.25});
+  std::size_t broken = 0;
+  const std::vector<SharedColor> answers = shareExponent(hostile);
+  ASSERT_EQ(answers.size(), hostile.size());
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const Vec3 d = answers[i].color;
+    for (const double v : {d.x, d.y, d.z}) broken += !(v >= 0 && v <= 65408);
+    // A small or negative neighbour leaves the others as they are.
+    const double values[3] = {hostile[i].x, hostile[i].y, hostile[i].z}, decoded[3] = {d.x, d.y, d.z};
+    const bool small = values[i % 3] < 0.25;
+    if (small)
+      for (std::size_t k = 0; k < 3; ++k) broken += decoded[k] != (k == i % 3 ? 0 : 0.25);
+  }
+  EXPECT_EQ(broken, 0u);
+  record("other",
+         "the same of NaN, infinite, negative, denormal, huge: decodes outside [0, 65408], or a small channel moves "
+         "the others",
+         "0", std::to_string(broken));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include "numerics_spv/numerics_shade.h"
 #include "numerics_spv/numerics_tangent.h"
 
+#include "forelock/asset.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +33,7 @@ std::vector<Shaded> shade(const std::vector<Shading>& inputs) {
     add(in, {std::cos(2 * kTilt), std::sin(2 * kTilt), std::cos(3 * kTilt), std::sin(3 * kTilt), s.exponent, s.exponent,
              s.kd, s.kr, s.kt});
   }
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_shade, in, 18, 5);
+  const std::vector<float> out = runItems(numerics_shade, in, 18, 5);
   std::vector<Shaded> shaded(out.size() / 5);
   for (std::size_t i = 0; i < shaded.size(); ++i) {
     const float* v = &out[i * 5];
@@ -128,7 +130,7 @@ TEST(Specular, LobeOfExtremes) {
       {nan, 1, 1, 0, 1}, {0.5, nan, 0.5, 0.866, -1}, {2, 3, 1.0000001, 0, 1}, {0, 1e30, 0.999, 0.0447, 0}};
   std::vector<float> in;
   for (const Case& c : cases) add(in, {c.q, c.n, c.cosine, c.sine});
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_lobe, in, 4, 2);
+  const std::vector<float> out = runItems(numerics_lobe, in, 4, 2);
   ASSERT_EQ(out.size(), cases.size() * 2);
   std::size_t broken = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -149,7 +151,7 @@ TEST(Specular, PowerOfOneMinus) {
   std::vector<float> in;
   for (const double q : qs)
     for (const double n : {0.0, 1e-3, 0.1, 1.0, 2.0, 14.4, 1e2, 1e3, 1e4, 1e5, 1e6}) add(in, {q, n, 1, 0});
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_lobe, in, 4, 2);
+  const std::vector<float> out = runItems(numerics_lobe, in, 4, 2);
   ASSERT_EQ(out.size() * 2, in.size());
   Worst error;
   for (std::size_t i = 0; i < in.size() / 4; ++i) {
@@ -263,35 +265,67 @@ TEST(DegenerateTangent, ShadesDiffuseOnly) {
 
   std::vector<float> in;
   for (const Degenerate& d : kDegenerate) add(in, d.v);
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_tangent, in, 3, 11);
-  ASSERT_EQ(out.size(), kDegenerate.size() * 11);
-  std::vector<Vec3> unit, decoded[2];
+  const std::vector<float> out = runItems(numerics_tangent, in, 3, 15);
+  ASSERT_EQ(out.size(), kDegenerate.size() * 15);
+  std::vector<Vec3> unit, decoded[3];
   Worst direction_error;
   for (std::size_t i = 0; i < kDegenerate.size(); ++i) {
     const Degenerate& d = kDegenerate[i];
-    const Vec3 u = at(out, i * 11);
+    const Vec3 u = at(out, i * 15);
     if (d.is_direction) {
       const double largest = std::max({std::fabs(d.v.x), std::fabs(d.v.y), std::fabs(d.v.z)});
       direction_error.see(angleBetween(u, scaled(toFloat(d.v), 1 / largest)) + std::fabs(length(u) - 1));
-      for (int c = 0; c < 2; ++c)
-        direction_error.see(isFinite(at(out, i * 11 + 4 + 4 * std::size_t(c))) ? 0 : HUGE_VAL);
+      for (int c = 0; c < 3; ++c)
+        direction_error.see(isFinite(at(out, i * 15 + 4 + 4 * std::size_t(c))) ? 0 : HUGE_VAL);
       continue;
     }
     unit.push_back(u);
-    for (int c = 0; c < 2; ++c) decoded[c].push_back(at(out, i * 11 + 4 + 4 * std::size_t(c)));
+    for (int c = 0; c < 3; ++c) decoded[c].push_back(at(out, i * 15 + 4 + 4 * std::size_t(c)));
   }
   const std::size_t wrong_unit = notDiffuseOnly(unit), wrong_default = notDiffuseOnly(decoded[0]),
-                    wrong_paper = notDiffuseOnly(decoded[1]);
+                    wrong_paper = notDiffuseOnly(decoded[1]), wrong_hard = notDiffuseOnly(decoded[2]);
   EXPECT_EQ(wrong_unit, 0u);
   EXPECT_EQ(wrong_default, 0u);
   EXPECT_EQ(wrong_paper, 0u);
+  EXPECT_EQ(wrong_hard, 0u);
   EXPECT_LT(direction_error.value(), 1e-6);
   record("G6", "the same (but 1e20, which is a direction) normalised: not diffuse only", "0",
          std::to_string(wrong_unit));
   record("G6", "the same, stored and read, default coding: not diffuse only", "0", std::to_string(wrong_default));
   record("G6", "the same, stored and read, paper coding: not diffuse only", "0", std::to_string(wrong_paper));
+  record("G6", "the same, stored and read, method hard: not diffuse only", "0", std::to_string(wrong_hard));
   record("G6", "lengths of 1e-30 to 3e38 normalised: largest error, radian and length", "< 1e-6",
          format(direction_error.value()));
+}
+
+// The counter of G6: what has no direction is counted where it enters.
+TEST(DegenerateTangent, FindingsCountThem) {
+  const float tiny = kDenormal;
+  const std::vector<float> positions = {
+      0, 0,    0, 0,    0,    0,                          // two strands of no length
+      1, 1,    1, 1,    1,    1,                          //
+      0, 0,    0, 0,    0,    0, 0.1f, 0, 0, 0.1f, 0, 0,  // a segment of none at either end
+      0, 0,    0, tiny, 0,    0, 0.1f, 0, 0, 0.2f, 0, 0,  // a denormal one
+      0, 0.1f, 0, 0.1f, 0.1f, 0};
+  const std::vector<uint32_t> first = {0, 2, 4, 8, 12, 14};
+  const std::vector<float> radii(14, 1e-4f);
+  FlkStrands strands{};
+  strands.type = FLK_TYPE_STRANDS;
+  strands.strand_count = 5, strands.vertex_count = 14;
+  strands.first_vertex = first.data(), strands.positions = positions.data(), strands.radii = radii.data();
+  FlkAsset asset = nullptr;
+  ASSERT_EQ(flkAssetCreate(&strands, nullptr, &asset), FLK_SUCCESS);
+  uint64_t dropped = 0, kept = 0;
+  FlkFinding finding{};
+  for (uint32_t i = 0; flkAssetGetFinding(asset, i, &finding) == FLK_SUCCESS; ++i) {
+    if (std::string(finding.code) == "STRAND_ZERO_LENGTH") dropped = finding.count;
+    if (std::string(finding.code) == "SEGMENT_ZERO_LENGTH") kept = finding.count;
+  }
+  flkAssetDestroy(asset);
+  EXPECT_EQ(dropped, 2u);
+  EXPECT_EQ(kept, 3u);
+  record("G6", "2 strands and 3 segments of no length, or a denormal one: findings count", "2, 3",
+         std::to_string(dropped) + ", " + std::to_string(kept));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
-// Position in the map, T, L, texel, size, range, fibres per metre, log2(1 - a): bias, light of 25 taps, of one.
+// Position in the map, T, L, texel, size, range, fibres per metre, log2(1 - a), corner of the map in the image: bias, light of 25 taps, of one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define IN 14
+#define IN 16
 #define OUT 3
 #include "items.glsl"
 #include "lib/shadow.glsl"
@@ -13,8 +13,9 @@ void main() {
   int size = int(in1(10));
   // Inputs count from the corner of the map, the functions from its middle.
   vec3 position = in3(0) - vec3(vec2(size / 2), 0.0);
+  ivec2 corner = ivec2(in2(14));
   float bias = shadowBias(in3(3), in3(6), in1(9));
   out1(0, bias);
-  out1(1, shadowFull(shadow_map, position, size, bias, in1(11), in1(12), in1(13)));
-  out1(2, shadowLow(shadow_map, position, size, bias, in1(11), in1(12), in1(13)));
+  out1(1, shadowFull(shadow_map, corner, position, size, bias, in1(11), in1(12), in1(13)));
+  out1(2, shadowLow(shadow_map, corner, position, size, bias, in1(11), in1(12), in1(13)));
 }

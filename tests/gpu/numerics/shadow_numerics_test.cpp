@@ -34,7 +34,7 @@ TEST(Transmittance, EveryOpacityAndFibreCount) {
   std::vector<float> in;
   for (const double a : kOpacities)
     for (const float n : fibres) in.insert(in.end(), {n, log2Transmittance(a)});
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_fibres, in, 2, 1);
+  const std::vector<float> out = runItems(numerics_fibres, in, 2, 1);
   ASSERT_EQ(out.size(), std::size(kOpacities) * fibres.size());
   Worst error, disorder;
   std::size_t outside = 0;
@@ -59,7 +59,7 @@ TEST(Transmittance, EveryOpacityAndFibreCount) {
 TEST(Transmittance, NotANumber) {
   std::vector<float> in;
   for (const double a : kOpacities) in.insert(in.end(), {kNan, log2Transmittance(a)});
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_fibres, in, 2, 1);
+  const std::vector<float> out = runItems(numerics_fibres, in, 2, 1);
   ASSERT_FALSE(out.empty());
   std::size_t outside = 0;
   for (const float v : out) outside += !(v >= 0 && v <= 1);
@@ -71,6 +71,7 @@ struct Query {
   Vec3 position;
   double range = 0.3, fibres_per_metre = 1 / 1.5e-3, opacity = 0.35, texel = 1e-3;
   Vec3 tangent{1, 0, 0}, to_light{0, 0, 1};
+  uint32_t corner[2] = {0, 0}, size = 0;  // of the map in the image; size 0: the whole of it
 };
 struct Answer {
   float bias, full, low;
@@ -82,10 +83,11 @@ std::vector<Answer> ask(const std::vector<Query>& queries, const DepthMap& map) 
     add(in, q.position);
     add(in, q.tangent);
     add(in, q.to_light);
-    add(in, {q.texel, double(map.size), q.range, q.fibres_per_metre});
+    add(in, {q.texel, double(q.size ? q.size : map.size), q.range, q.fibres_per_metre});
     in.push_back(log2Transmittance(q.opacity));
+    add(in, {double(q.corner[0]), double(q.corner[1])});
   }
-  const std::vector<float> out = ComputeDevice::shared().run(numerics_shadow, in, 14, 3, &map);
+  const std::vector<float> out = runItems(numerics_shadow, in, 16, 3, &map);
   std::vector<Answer> answers(out.size() / 3);
   for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = {out[i * 3], out[i * 3 + 1], out[i * 3 + 2]};
   return answers;
@@ -211,11 +213,36 @@ TEST(ShadowRange, MapEdge) {
   record("G2", "map edge, caster up to it, receiver at its depth: step", "< 2 codes",
          format(std::max(at_caster.first, at_caster.second)));
   EXPECT_GT(behind_border.second, 250);  // else the sweep misses the edge
-  record(
-      "G2",
-      "map edge, caster up to it, receiver 93 fibres behind (none crosses it: the map holds all hair): step of 25"
-      " taps, of one",
-      "reported", format(behind_border.first) + ", " + format(behind_border.second) + " codes");
+  record("G2",
+         "map edge, caster up to it, receiver 93 fibres behind (none crosses it: the map holds all hair): step of 25"
+         " taps, of one",
+         "reported", format(behind_border.first) + ", " + format(behind_border.second) + " codes");
+}
+
+// Maps of several lights are rectangles of one image: what lies beside one never shows in it.
+TEST(ShadowRange, MapInAnAtlas) {
+  const uint32_t size = 32, left = 17, top = 40;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> uniform(0, 0.5f);
+  DepthMap alone = filled(size, 1), atlas = filled(96, 0);  // all else casts a shadow
+  for (uint32_t y = 0; y < size; ++y)
+    for (uint32_t x = 0; x < size; ++x)
+      alone.texels[y * size + x] = atlas.texels[(y + top) * 96 + x + left] = uniform(random);
+  std::vector<Query> queries;
+  for (double x = -6.3; x < 40; x += 0.9)
+    for (double y = -6.1; y < 40; y += 0.9) queries.push_back({{x, y, 0.11}});
+  for (const double far : {-1e30, 1e30, double(kInf)})
+    queries.push_back({{far, 5, 0.11}}), queries.push_back({{5, far, 0.11}});
+  const std::vector<Answer> expected = ask(queries, alone);
+  for (Query& q : queries) q.corner[0] = left, q.corner[1] = top, q.size = size;
+  const std::vector<Answer> actual = ask(queries, atlas);
+  ASSERT_EQ(actual.size(), expected.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < actual.size(); ++i)
+    different += actual[i].full != expected[i].full || actual[i].low != expected[i].low;
+  EXPECT_EQ(different, 0u);
+  record("G2", "map amid an atlas of other shadows, receivers in it and around: not as of the map alone", "0",
+         std::to_string(different));
 }
 
 TEST(ShadowTaps, Weights) {

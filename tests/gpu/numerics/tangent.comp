@@ -1,8 +1,8 @@
-// A vector: its unit vector, and that coded and decoded with 11 and with 12 bits.
+// A vector: its unit vector, and that coded and decoded with 11, with 12 and (FLK_METHOD_HARD) with 13 bits.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define IN 3
-#define OUT 11
+#define OUT 15
 #include "items.glsl"
 #include "lib/numeric.glsl"
 #include "lib/packing.glsl"
@@ -19,4 +19,7 @@ void main() {
     outWord(3 + 4 * coding, payload);
     out3(4 + 4 * coding, tangent);
   }
+  uint hard = packHard(unit, 0u);
+  outWord(11, hard);
+  out3(12, octDecode(hard, 13));
 }

@@ -93,9 +93,10 @@ TEST(CommandUsage, RootImagesNeedAFileAndRootUvs) {
   EXPECT_EQ(good.status, 0) << good.err;
   EXPECT_NE(good.out.find("16 bytes for each fragment"), std::string::npos) << "colours vary from strand to strand";
   expectComplaint(planned("small.json", "nowhere.png"), 1, "nowhere.png: cannot be read as a picture");
-  const CommandRun broken = planned("small.json", "broken.png");  // libpng has a line of its own to say
+  // libpng has its own say on stderr before ours.
+  const CommandRun broken = planned("small.json", "broken.png");
   EXPECT_EQ(broken.status, 1);
-  EXPECT_NE(broken.err.find("broken.png: cannot be read as a picture: "), std::string::npos) << broken.err;
+  EXPECT_NE(broken.err.find("broken.png: cannot be read as a picture"), std::string::npos) << broken.err;
   expectComplaint(planned("small.json", "text.png"), 1, "text.png: cannot be read as a picture");
   expectComplaint(planned("small.json", "small.json"), 1, "small.json: no picture that can be read");
   const std::string bare = folder + "/bare.hair";

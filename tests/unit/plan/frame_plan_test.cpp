@@ -1,6 +1,8 @@
 // What a frame is given and what it is spared, without a device.
 #include "plan/plan.h"
 
+#include "shared/light.h"
+
 #include <gtest/gtest.h>
 
 namespace forelock {
@@ -37,14 +39,17 @@ TEST(FramePlan, ListsExactlyThePassesOfAShadowedFrame) {
   EXPECT_EQ(plan.bytes(ResourceId::nodes), 5000u * 12u);
   EXPECT_EQ(plan.bytes(ResourceId::heads), uint64_t(plan.rect.width) * plan.rect.height * 4u);
   EXPECT_LT(uint64_t(plan.rect.width) * plan.rect.height, 400u * 300u);  // heads follow the hair, not the screen
+  EXPECT_EQ(plan.bytes(ResourceId::aggregates), uint64_t(plan.rect.width) * plan.rect.height * 16u);
+  EXPECT_EQ(plan.bytes(ResourceId::lights), sizeof(gpu::LightConstants) + sizeof(gpu::FaceConstants));
   EXPECT_EQ(plan.transientBytes(), plan.bytes(ResourceId::shadow_map) + plan.bytes(ResourceId::nodes) +
-                                       plan.bytes(ResourceId::heads) + plan.bytes(ResourceId::constants) +
+                                       plan.bytes(ResourceId::heads) + plan.bytes(ResourceId::aggregates) +
+                                       plan.bytes(ResourceId::constants) + plan.bytes(ResourceId::lights) +
                                        plan.bytes(ResourceId::counters) + plan.bytes(ResourceId::read_back));
 }
 
 TEST(FramePlan, NoShadowingLightMeansNoShadow) {
   const HairFacts hair = someHair();
-  for (const LightFacts light : {LightFacts{false, 512}}) {
+  for (const LightFacts& light : {LightFacts{false, 512}}) {
     const FramePlan plan = planFrame(someFrame(hair, light), 5000);
     EXPECT_FALSE(plan.has(PassId::shadow));
     EXPECT_EQ(plan.bytes(ResourceId::shadow_map), 0u);

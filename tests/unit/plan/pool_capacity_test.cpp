@@ -53,5 +53,16 @@ TEST(PoolCapacity, AFrameWithoutFragmentsTeachesNothing) {
   EXPECT_GE(choosePoolCapacity(state, 50000, 1u << 26), 50000u);
 }
 
+// Nodes that carry a colour are larger: fewer of them fit into the same budget, also before anything was counted.
+TEST(PoolCapacity, ALimitThatFallsHolds) {
+  PoolState state;
+  state.capacity = choosePoolCapacity(state, 100000, 60000);
+  EXPECT_EQ(state.capacity, 60000u);
+  EXPECT_EQ(choosePoolCapacity(state, 100000, 45000), 45000u);
+  state.last_count = 80000, state.last_estimate = 100000, state.counted = true;
+  EXPECT_EQ(choosePoolCapacity(state, 100000, 45000), 45000u);
+  EXPECT_EQ(choosePoolCapacity(state, 100000, 60000), 60000u);
+}
+
 }  // namespace
 }  // namespace forelock

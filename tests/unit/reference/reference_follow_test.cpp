@@ -26,7 +26,7 @@ TEST(ReferenceFollow, NumbersAreSplitMix64) {
   Strands guide;
   const Vec3 points[2] = {{0, 0, 0}, {0, 0, 1}};
   addStrand(guide, points, 1e-3);
-  const Strands all = followStrands(guide, 1, 2.0, 1, 1234567 - 0x9E3779B97F4A7C15ull);
+  const Strands all = followStrands(guide, 1, 2.0, 1, 1234567 - 2 * 0x9E3779B97F4A7C15ull);
   // t = z: X = x, Y = y.
   EXPECT_NEAR(all.positions[2].x, 2 * std::sqrt(u1) * std::cos(2 * std::numbers::pi * u2), 1e-15);
   EXPECT_NEAR(all.positions[2].y, 2 * std::sqrt(u1) * std::sin(2 * std::numbers::pi * u2), 1e-15);

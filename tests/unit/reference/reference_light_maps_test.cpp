@@ -2,6 +2,8 @@
 #include "reference_support.h"
 #include "reference_vector.h"
 
+#include <numbers>
+
 namespace forelock::reference {
 namespace {
 
@@ -43,7 +45,7 @@ TEST(ReferenceLightMaps, KindOfMapFollowsTheNarrowest) {
   EXPECT_NEAR(frames(far)[0].z.z, -1, 1e-15);
   const Light close = shadowing(LightKind::point, {1, 2, 5.4}, 64);  // 1.2 rho
   ASSERT_EQ(frames(close).size(), 6u);
-  EXPECT_NEAR(frames(close)[0].near_depth, 0.4, 1e-12);
+  EXPECT_NEAR(frames(close)[0].near_depth, 0.4 / std::numbers::sqrt3, 1e-12);
   EXPECT_NEAR(frames(close)[3].z.y, -1, 1e-15);
   EXPECT_NEAR(frames(close)[3].focal, 29, 1e-12);
   EXPECT_NEAR(frames(shadowing(LightKind::point, {1, 2, 3}, 64))[5].near_depth, 0.002, 1e-15);

@@ -249,8 +249,9 @@ double shortest(float value) {
 
 Json assetJson(const SceneAsset& asset) {
   const FlkMaterial& m = asset.material;
+  const FlkMaterial brown = pictureMaterial();
   Json material;
-  if (asset.color_given) {
+  if (asset.color_given || !std::equal(m.color, m.color + 3, brown.color)) {
     material["color"] = hexColor({m.color[0], m.color[1], m.color[2]});
   }
   material["opacity_root"] = shortest(m.opacity_root);

@@ -160,13 +160,14 @@ void printText(const PreviewArguments& arguments, const HeadlessHost& host, cons
   }
   for (const StagedAsset& asset : stage.assets) {
     if (asset.follow.count > 0) {
-      std::printf("  strands     %u and %u follow strands beside each, within %.3g mm, of %s\n", asset.info.strand_count,
-                  asset.follow.count, 1e3 * static_cast<double>(asset.follow.radius), asset.opened.label.c_str());
+      std::printf("  strands     %s and %u follow strands beside each, within %.3g mm, of %s\n",
+                  groupedDigits(asset.info.strand_count).c_str(), asset.follow.count, 1e3 * static_cast<double>(asset.follow.radius),
+                  asset.opened.label.c_str());
     }
     const SceneAsset& wanted = stage.scene.assets[static_cast<size_t>(&asset - stage.assets.data())];
     if (!asset.info.has_radii && wanted.width_mm <= 0.0) {
-      std::printf("  width       %.3g mm: %s has none, so 80 um x max(1, 100,000 / strands); --width MM changes it\n",
-                  asset.width_mm, asset.opened.label.c_str());
+      std::printf("  width       %.3g mm: %s has none, so 80 um x max(1, 100,000 / strands%s); --width MM changes it\n",
+                  asset.width_mm, asset.opened.label.c_str(), asset.follow.count > 0 ? ", follow strands too" : "");
     }
   }
 }

@@ -101,17 +101,21 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
 
   const char* method = "Method (docs/methods.md section 6)";
   command.add_option("--method", arguments.method,
-                     "core_tail: the nearest k in full quality, the rest cheaply; exact: all in full quality and in order; "
-                     "forward: all, shaded before sorting; core_only: the rest hides but has no colour; all_low: all cheaply; "
-                     "hard: the nearest, opaque, no blending")
+                     "core_tail: the nearest k in full quality, the rest cheaply [the default]\n"
+                     "exact: all in full quality and in order\n"
+                     "forward: all in full quality, shaded before they are sorted\n"
+                     "core_only: as core_tail, but the rest only hides\n"
+                     "all_low: as core_tail, but all of it cheaply\n"
+                     "hard: the nearest alone, opaque")
       ->check(given(methodNames()))->type_name("NAME")->group(method);
   command.add_option("--k", arguments.k, "Fragments a pixel shaded fully; 0: none [8]")
       ->check(CLI::Range(0u, 32u))->type_name("N")->group(method);
   command.add_option("--k-sort", arguments.k_sort, "Fragments a pixel in order [max(8, k)]")
       ->check(CLI::Range(1u, 32u))->type_name("N")->group(method);
   command.add_option("--tail", arguments.tail,
-                     "Beyond the k-sort nearest: deterministic (a mean, the same from run to run), list (in order of arrival) "
-                     "[deterministic]")
+                     "What lies behind the k-sort nearest\n"
+                     "deterministic: a mean, the same from run to run [the default]\n"
+                     "list: in order of arrival, as in the paper")
       ->check(given(tailNames()))->type_name("NAME")->group(method);
   command.add_option("--capture", arguments.capture, "Who turns strands into fragments: raster, compute [raster]")
       ->check(given(captureNames()))->type_name("NAME")->group(method);

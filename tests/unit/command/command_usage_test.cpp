@@ -68,7 +68,8 @@ TEST(CommandUsage, LightTurnsOnlyWhatHasADirection) {
   const std::string scene = writeScratch(
       "lamp.json", R"({"assets": [{"source": "small.json"}], "lights": [{"kind": "point", "position": [0, 0, 1]}]})");
   smallRecipe();
-  expectComplaint(runCommand("plan --scene \"" + scene + "\" --light=10,20"), 2, "no");
+  expectComplaint(runCommand("plan --scene \"" + scene + "\" --light=10,20"), 2,
+                  "--light turns the scene's first directional light, but it has none");
   EXPECT_EQ(runCommand("plan --scene \"" + scene + "\"").status, 0);
 }
 
@@ -83,6 +84,7 @@ TEST(CommandUsage, RootImagesNeedAFileAndRootUvs) {
       72);
   writeScratch("scalp.png", png);
   writeScratch("broken.png", png.substr(0, 40));
+  writeScratch("text.png", "a picture");
   const auto planned = [&](const std::string& source, const std::string& image) {
     return runCommand("plan --scene \"" + writeScratch("root.json", "{\"assets\": [{\"source\": \"" + source +
                                                                        "\", \"root_image\": \"" + image + "\"}]}") + "\"");
@@ -95,6 +97,7 @@ TEST(CommandUsage, RootImagesNeedAFileAndRootUvs) {
   const CommandRun broken = planned("small.json", "broken.png");
   EXPECT_EQ(broken.status, 1);
   EXPECT_NE(broken.err.find("broken.png: cannot be read as a picture"), std::string::npos) << broken.err;
+  expectComplaint(planned("small.json", "text.png"), 1, "text.png: cannot be read as a picture");
   expectComplaint(planned("small.json", "small.json"), 1, "small.json: no picture that can be read");
   const std::string bare = folder + "/bare.hair";
   ASSERT_EQ(runCommand("convert \"" + smallRecipe() + "\" \"" + bare + "\"").status, 0);

@@ -29,7 +29,8 @@ TEST(SceneFile, SaysKeyValueAndRange) {
   EXPECT_EQ(faultOf(R"({"light": {"shadow": 1}})"), "light.shadow is 1, must be true or false");
   EXPECT_EQ(faultOf(R"({"light": {"color": "red"}})"), "light.color is \"red\", must be sRGB as \"#rrggbb\"");
   EXPECT_EQ(faultOf(R"({"size": [0, 10]})"), "size is [0,10], must be two whole numbers in [1, 16384]");
-  EXPECT_EQ(faultOf(R"({"method": "best"})"), "method is \"best\", must be one of core_tail, exact, forward, core_only, all_low, hard");
+  EXPECT_EQ(faultOf(R"({"method": "best"})"),
+            "method is \"best\", must be one of core_tail, exact, forward, core_only, all_low, hard");
   EXPECT_EQ(faultOf(R"({"assets": [{}]})"), "assets[0].source is missing");
   EXPECT_EQ(faultOf(R"({"assets": [{"source": "a", "material": {"opacity_tip": 2}}]})"),
             "assets[0].material.opacity_tip is 2, must be a number in [0, 1]");

@@ -76,7 +76,7 @@ TEST(Visits, PixelsWithHairOnlyAndALoneFragmentOnce) {
 // Sixteen lights of which each tile sees one cost at most half more than one light. Times in pairs.
 TEST(LightTiles, SixteenLightsOfWhichATileSeesOne) {
   for (const bool lamps : {false, true}) {
-    const ViewSpec view = storedView("198k");
+    const ViewSpec view = storedView("35k");
     const StrandArrays& strands = caseStrands(kAssetCases[0], false);
     const auto lightAt = [&](int i) {
       FlkLight light = sunFrom(std::cos(i * 0.4), 1.2, std::sin(i * 0.4), 2, 512);
@@ -101,7 +101,7 @@ TEST(LightTiles, SixteenLightsOfWhichATileSeesOne) {
     for (std::size_t t = 0; t < words.size(); ++t) words[t] = 1u << t % 16;
     many.light_tiles = {host().uploadBuffer(std::as_bytes(std::span(words))), 32, tiles_x, tiles_y, VK_PIPELINE_STAGE_2_HOST_BIT,
                         VK_ACCESS_2_HOST_WRITE_BIT};
-    for (int pair = 0; pair < 6; ++pair) {
+    for (int pair = 0; pair < 4; ++pair) {
       for (int which = 0; which < 2; ++which) {
         World& world = which ? many : one;
         FlkFrame frame = world.frame();
@@ -112,11 +112,11 @@ TEST(LightTiles, SixteenLightsOfWhichATileSeesOne) {
       if (pair > 0) ratios.push_back(ms[1] / ms[0]);
     }
     std::sort(ratios.begin(), ratios.end());
-    std::printf("ROW light tiles, %s: resolve with 16 lights over that with 1: %.2f, median of 5 pairs from %.2f to %.2f\n",
-                lamps ? "point lights" : "directional", ratios[2], ratios[0], ratios[4]);
+    std::printf("ROW light tiles, %s: resolve with 16 lights over that with 1: %.2f, median of 3 pairs from %.2f to %.2f\n",
+                lamps ? "point lights" : "directional", ratios[1], ratios[0], ratios[2]);
     // A lone sun is read once a pixel, which sixteen are not: masks are for lights that reach few tiles. That ratio is reported.
     if (lamps) {
-      EXPECT_LE(ratios[2], 1.5);
+      EXPECT_LE(ratios[1], 1.5);
     }
   }
 }

@@ -183,7 +183,7 @@ TEST(FullSize, EveryAssetAgainstItsReferences) {
       const std::vector<reference::ShadowMap> fed{scene.readShadowMap()};
       frame.method = FLK_METHOD_FORWARD;
       const reference::Image forward = scene.toImage(scene.render(frame));
-      frame.method = FLK_METHOD_CORE_TAIL;
+      frame.method = FLK_METHOD_CORE_TAIL, frame.tail = FLK_TAIL_LIST;
       const reference::Image core_tail = scene.toImage(scene.render(frame));
       const reference::Difference shading = reference::compare(exact, expected(reference::Method::exact, fed));
       const reference::Difference whole = reference::compare(exact, expected(reference::Method::exact, own));

@@ -20,7 +20,7 @@ vec3 octDecode(uint code, int bits) {
   float steps = float((1 << bits) - 2);
   uint mask = (1u << bits) - 1u;
   if ((code & mask) == mask) return vec3(0.0);  // no direction
-  vec2 p = vec2(float(code & mask), float(code >> bits & mask)) / steps * 2.0 - 1.0;
+  vec2 p = (2.0 * vec2(float(code & mask), float(code >> bits & mask)) - steps) / steps;  // 0 is exact whatever the division is
   vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
   if (v.z < 0.0) v.xy = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
   float square = dot(v, v);  // >= 1/3; exactly 1 on the axes, which an approximate root would miss

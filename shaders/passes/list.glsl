@@ -25,11 +25,12 @@ struct Aggregate {
   float least, greatest;  // depths (metre)
   uint slot;         // of the nearest
   vec3 tangent;      // of the nearest
+  float count;
   vec3 color;        // in lists of colours
 };
 
 Aggregate readAggregate(uint pixel, bool colors) {
-  Aggregate a = Aggregate(0.0, 0.0, 0.0, 0u, vec3(0.0), vec3(0.0));
+  Aggregate a = Aggregate(0.0, 0.0, 0.0, 0u, vec3(0.0), 1.0, vec3(0.0));
   if (!kAggregate) return a;
   AggregatePool pool = AggregatePool(frame.aggregates);
   uint base = pixel * FLK_AGGREGATE_WORDS;
@@ -43,20 +44,34 @@ Aggregate readAggregate(uint pixel, bool colors) {
     a.slot = min(key & FLK_SLOT_BITS, FLK_MAX_HAIRS - 1u);
     a.tangent = octDecode(key >> FLK_NEAREST_TANGENT_SHIFT, FLK_NEAREST_TANGENT_BITS);
     a.greatest = uintBitsToFloat(pool.words[base + 2u]);
+    a.count = max(float(pool.words[base + 3u]), 1.0);
     a.least = min(mix(frame.depth_range.x, frame.depth_range.y, float(key >> FLK_NEAREST_DEPTH_SHIFT) / FLK_NEAREST_DEPTH_STEPS), a.greatest);
   }
   return a;
 }
 
-// What of an aggregate is not yet blended: its optical depth is spread evenly between its least and greatest depth, so that the
-// fragments of the list find their place in it.
+// What of an aggregate is not yet blended: its nearest fragment, which is given an even share of the optical depth, and the rest,
+// spread evenly between its least and greatest depth, so that the fragments of the list find their place in it.
 struct Slab {
-  float tau, done;  // done: the share that lies before the depths passed so far
+  float nearest_tau;  // 0: blended
+  vec3 nearest_color;
+  float tau, done;    // done: the share of the rest that lies before the depths passed so far
   vec3 color;
 };
 
+Slab slabOf(Aggregate a) {
+  float nearest = a.tau / a.count;
+  return Slab(nearest, a.color, a.tau - nearest, 0.0, a.color);
+}
+
 // The slab up to `depth` over what lies behind: adds to color_sum, takes from transmittance.
 void passSlab(inout Slab slab, Aggregate a, float depth, inout vec3 color_sum, inout float transmittance) {
+  if (depth >= a.least) {
+    float nearest = exp2(-min(slab.nearest_tau, 126.0));
+    color_sum += transmittance * (1.0 - nearest) * slab.nearest_color;
+    transmittance *= nearest;
+    slab.nearest_tau = 0.0;
+  }
   float share = a.greatest > a.least ? clamp((depth - a.least) / (a.greatest - a.least), slab.done, 1.0) : depth > a.least ? 1.0 : slab.done;
   float through = exp2(-min(slab.tau * (share - slab.done), 126.0));
   color_sum += transmittance * (1.0 - through) * slab.color;

@@ -59,9 +59,9 @@ void main() {
   }
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;
-  Slab slab = Slab(rest.tau, 0.0, rest.color);
+  Slab slab = slabOf(rest);
 #ifndef FLK_FORWARD
-  if (rest.tau > 0.0) slab.color = shadeAggregate(rest, source, kFull > 0u);
+  if (rest.tau > 0.0) shadeSlab(slab, rest, source, kFull > 0u);
 #endif
   [[dont_unroll]] for (uint i = 0; i < kSort; ++i) {
     if (core[i].depth == kDepthNone) break;
@@ -71,7 +71,10 @@ void main() {
     color_sum += transmittance * alpha * color;
     transmittance *= 1.0 - alpha;
   }
-  if (rest.tau > 0.0) addAggregate(tail, rest.tau * (1.0 - slab.done), slab.color);
+  if (rest.tau > 0.0) {
+    addAggregate(tail, slab.nearest_tau, slab.nearest_color);
+    addAggregate(tail, slab.tau * (1.0 - slab.done), slab.color);
+  }
   closeTail(tail);
   compositePixel(pixel, color_sum + transmittance * tail.color, transmittance * tail.transmittance);
   countPixel();

@@ -27,8 +27,8 @@ void main() {
 
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;
-  Slab slab = Slab(rest.tau, 0.0, vec3(0.0));
-  if (rest.tau > 0.0) slab.color = shadeAggregate(rest, source, true);
+  Slab slab = slabOf(rest);
+  if (rest.tau > 0.0) shadeSlab(slab, rest, source, true);
   Key last = Key(0u, 0u, 0u, 0u);  // the farthest key blended; no key is 0, depths are positive
   uint last_blended = 0u;  // how many fragments of exactly that key
   bool more = head != FLK_LINK_END;

@@ -33,15 +33,18 @@ vec3 shadeKey(Key key, ShadeSource source, bool full, out float alpha) {
   return shadeTangent(key.slot, tangent, uintBitsToFloat(key.depth), key.color, source, full);
 }
 
-// An aggregate as one fragment with the tangent of its nearest, at the mean depth at which it is seen: of a slab of optical depth
-// x (natural) that is the share 1 / x - 1 / (e^x - 1) of the way through.
-vec3 shadeAggregate(Aggregate a, ShadeSource source, bool full) {
+// An aggregate's nearest fragment, and the rest with its tangent at the mean depth at which it is seen: of a slab of optical depth x
+// (natural) that is the share 1 / x - 1 / (e^x - 1) of the way through.
+void shadeSlab(inout Slab slab, Aggregate a, ShadeSource source, bool full) {
   HairConstants hair = hairOf(a.slot, source);
-  float x = a.tau * 0.69314718;
+  slab.nearest_color = full ? radianceFull(hair, hair.color, source.light, a.tangent, source.ray, a.least, source.pixel)
+                            : radianceLow(hair, hair.color, source.light, a.tangent, source.ray, a.least, source.pixel);
+  if (a.count < 2.0) return;
+  float x = slab.tau * 0.69314718;
   float share = x > 0.01 ? 1.0 / x - 1.0 / (exp(min(x, 80.0)) - 1.0) : 0.5;
   float depth = mix(a.least, a.greatest, clamp(share, 0.0, 0.5));
-  return full ? radianceFull(hair, hair.color, source.light, a.tangent, source.ray, depth, source.pixel)
-              : radianceLow(hair, hair.color, source.light, a.tangent, source.ray, depth, source.pixel);
+  slab.color = full ? radianceFull(hair, hair.color, source.light, a.tangent, source.ray, depth, source.pixel)
+                    : radianceLow(hair, hair.color, source.light, a.tangent, source.ray, depth, source.pixel);
 }
 
 #endif

@@ -51,44 +51,50 @@ TEST(Overflow, DegradesEvenlyAndLosesNoPixel) {
       double last = 0;
       for (const int percent : {100, 90, 80, 70, 60, 50, 40, 30, 20, 10, 5, 0}) {
         const uint64_t nodes = std::max<uint64_t>(need * uint64_t(percent) / 100, 1);
-        const auto world = worldWith(nodes, strands, view, scale);
-        for (float& r : world->lights[0].radiance) r = radiance;
-        FlkFrame frame = world->frame();
-        frame.method = method, frame.capture = capture;
-        const reference::Image image = world->image(world->render(frame, true));
-        if (percent == 100) full = image;
-        EXPECT_EQ(world->statistics.fragments, need);
-        EXPECT_EQ(world->statistics.overflow_fragments, need - std::min(need, nodes));
-        double opacity = 0;
+        double opacity = 0, sum = 0;
         std::size_t lost = 0;
-        std::vector<double> blocks(16 * 16);
-        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-          const reference::Pixel &a = image.pixels[i], &b = full.pixels[i];
-          opacity = std::max(opacity, std::abs(a.transmittance - b.transmittance));
-          lost += b.fragments && !a.fragments;
-          double square = 0;
-          for (int c = 0; c < 3; ++c)
-            square += std::pow(255 * (std::clamp(a.rgb[c], 0.0, 1.0) - std::clamp(b.rgb[c], 0.0, 1.0)), 2);
-          blocks[i / 256 / 16 * 16 + i % 256 / 16] += square;
+        std::vector<double> blocks(16 * 16), hair_pixels(16 * 16);
+        // What comes last differs from frame to frame: the error is that of three.
+        constexpr int draws = 3;
+        for (int draw = 0; draw < draws; ++draw) {
+          const auto world = worldWith(nodes, strands, view, scale);
+          for (float& r : world->lights[0].radiance) r = radiance;
+          FlkFrame frame = world->frame();
+          frame.method = method, frame.capture = capture;
+          const reference::Image image = world->image(world->render(frame, true));
+          if (percent == 100 && draw == 0) full = image;
+          EXPECT_EQ(world->statistics.fragments, need);
+          EXPECT_EQ(world->statistics.overflow_fragments, need - std::min(need, nodes));
+          for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+            const reference::Pixel &a = image.pixels[i], &b = full.pixels[i];
+            opacity = std::max(opacity, std::abs(a.transmittance - b.transmittance));
+            lost += b.fragments && !a.fragments;
+            double square = 0;
+            for (int c = 0; c < 3; ++c)
+              square += std::pow(255 * (std::clamp(a.rgb[c], 0.0, 1.0) - std::clamp(b.rgb[c], 0.0, 1.0)), 2);
+            const std::size_t block = i / 256 / 16 * 16 + i % 256 / 16;
+            blocks[block] += square, sum += square, hair_pixels[block] += b.fragments > 0;
+          }
         }
-        const reference::Difference d = reference::compare(image, full);
-        // Of blocks, over their hair pixels: a block at the rim has few.
-        double worst = 0;
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-          double pixels = 0;
-          for (std::size_t i = 0; i < 256; ++i) pixels += full.pixels[(b / 16 * 16 + i / 16) * 256 + b % 16 * 16 + i % 16].fragments > 0;
-          if (pixels > 0) worst = std::max(worst, std::sqrt(blocks[b] / pixels));
+        double pixels = 0, worst = 0, worst_at_rim = 0;
+        for (const double n : hair_pixels) pixels += n;
+        const double rmse = std::sqrt(sum / pixels);
+        // A block of which hair covers less than a quarter is a strand at the rim and no patch: reported apart.
+        for (std::size_t i = 0; i < blocks.size(); ++i) {
+          double& most = hair_pixels[i] >= 64 * draws ? worst : worst_at_rim;
+          if (hair_pixels[i] > 0) most = std::max(most, std::sqrt(blocks[i] / hair_pixels[i]));
         }
-        std::printf("ROW overflow, method %u, %s, %3d %% of %llu: rmse %.2f, opacity off by %.2f / 255, worst block %.2f of the mean, %zu "
-                    "pixels lost\n", method, capture == FLK_CAPTURE_COMPUTE ? "compute" : "raster", percent,
-                    static_cast<unsigned long long>(need), d.rmse, 255 * opacity, d.rmse > 0 ? worst / d.rmse : 0, lost);
+        const double mean = std::max(rmse, 1e-9);
+        std::printf("ROW overflow, method %u, %s, %3d %% of %llu: rmse %.2f, opacity off by %.2f / 255, worst block %.2f of the mean (at the rim "
+                    "%.2f), %zu pixels lost\n", method, capture == FLK_CAPTURE_COMPUTE ? "compute" : "raster", percent,
+                    static_cast<unsigned long long>(need), rmse, 255 * opacity, worst / mean, worst_at_rim / mean, lost);
         EXPECT_LE(255 * opacity, 2.0) << percent;
         EXPECT_EQ(lost, 0u);
-        EXPECT_GE(d.rmse, last - 0.5) << "an error that falls with memory";
-        if (d.rmse > 0.5) {
-          EXPECT_LE(worst, 4 * d.rmse);
+        EXPECT_GE(rmse, last - 0.5) << "an error that falls with memory";
+        if (rmse > 0.5) {
+          EXPECT_LE(worst, 4 * rmse);
         }
-        last = std::max(last, d.rmse);
+        last = std::max(last, rmse);
       }
     }
   }

@@ -33,8 +33,8 @@ TEST(AssetArguments, Version) {
 TEST(AssetArguments, ResultNames) {
   EXPECT_STREQ(flkResultName(FLK_SUCCESS), "FLK_SUCCESS");
   EXPECT_STREQ(flkResultName(FLK_NOT_READY), "FLK_NOT_READY");
-  for (FlkResult result = -1; result >= -12; --result) EXPECT_EQ(std::string(flkResultName(result)).rfind("FLK_ERROR_", 0), 0u);
-  for (const FlkResult result : {2, -13, INT32_MIN, INT32_MAX}) EXPECT_STREQ(flkResultName(result), "unknown");
+  for (FlkResult result = -1; result >= -13; --result) EXPECT_EQ(std::string(flkResultName(result)).rfind("FLK_ERROR_", 0), 0u);
+  for (const FlkResult result : {2, -14, INT32_MIN, INT32_MAX}) EXPECT_STREQ(flkResultName(result), "unknown");
 }
 
 TEST(AssetArguments, Strands) {

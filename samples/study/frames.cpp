@@ -2,6 +2,7 @@
 #include "frames.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace forelock::study {
 
@@ -57,7 +58,9 @@ Drawing::Drawing(samples::HeadlessHost& host, DeviceSubject& subject, const FlkF
 
 double Drawing::render(FlkFrame frame) {
   if (!host_.resize(width_, height_)) throw RowFailure("failed: no device memory for a target");
+  const auto begin = std::chrono::steady_clock::now();
   const FlkResult result = host_.render(lists_, frame, &plan_);
+  seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (result != FLK_SUCCESS)
     throw RowFailure(std::string("failed: ") + flkResultName(result) + (host_.messages().empty() ? "" : ", " + host_.messages().back()));
   if (host_.statistics(lists_, statistics_) != FLK_SUCCESS) throw RowFailure("failed: the frame has no statistics");

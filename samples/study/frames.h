@@ -60,6 +60,8 @@ public:
   // Of the rectangle, of the last frame.
   Picture picture(const Rect& rect);
   FlkPlan plan() const { return plan_; }
+  // By the wall clock, of the last frame.
+  double seconds() const { return seconds_; }
 
 private:
   double render(FlkFrame frame);
@@ -69,6 +71,7 @@ private:
   FlkFrame frame_;
   uint32_t width_, height_;
   FlkPlan plan_ = nullptr;
+  double seconds_ = 0;
   FlkStatistics statistics_{};
   forelock::View lists_;
 };

@@ -42,7 +42,9 @@ public:
   }
   void sweepK(const std::string& view) {
     for (const char* name : {"core_tail", "core_only"})
-      for (const uint32_t k : options_.k) with(view, name, [k](Measurement& m) { m.k = k; });
+      // A quick look is content with one curve.
+      for (const uint32_t k : options_.amount == Amount::quick && std::string(name) != kBaseline ? std::vector<uint32_t>{} : options_.k)
+        with(view, name, [k](Measurement& m) { m.k = k; });
   }
   void sweepTaps(const std::string& view) {
     for (const uint32_t taps : options_.core_taps) with(view, kBaseline, [taps](Measurement& m) { m.core_taps = taps; });

@@ -53,6 +53,9 @@ double meanFlip(const Picture& reference, const Picture& test) {
   return n > 0 ? sum / n : std::numeric_limits<double>::quiet_NaN();
 }
 
+// Supersampled coverage takes about a second a million fragments: beyond this only --full makes it.
+constexpr double kCoverFragments = 8e6;
+
 // A view in one light and colour: references, and how bright the lights are.
 struct Setting {
   std::size_t view = 0;
@@ -167,8 +170,8 @@ void Study::findWhatToMeasure() {
   std::set<std::string> there;
   const auto keyOf = [](const Row& row) {
     std::string key;
-    for (const char* column : {"view", "method_name", "capture", "payload", "lights", "hair_colour", "shadow_size", "k", "k_sort", "core_taps"})
-      key += (key.empty() ? "" : ",") + row[std::string(column) == "method_name" ? "method" : column];
+    for (const char* column : {"view", "method", "capture", "payload", "lights", "hair_colour", "shadow_size", "k", "k_sort", "core_taps"})
+      key += (key.empty() ? "" : ",") + row[column];
     return key;
   };
   for (const Row& row : file_->rows()) there.insert(keyOf(row));
@@ -200,9 +203,8 @@ Setting& Study::setting(const Measurement& m) {
   twin_color_ = m.color;
 
   View& view = views_[index];
-  const bool first = m.view == mainView(options_.views) || view.name == "scene" || view.name == "quick" || views_.size() == 1;
   ReferenceWish wish;
-  wish.cover = first || options_.amount == Amount::full;
+  wish.cover = options_.amount == Amount::full || double(view.fragments) < kCoverFragments;
   wish.says = [&](const char* what) { status_.show(done_, done_ + rows_.size(), "view " + view.name + ": " + what); };
   Setting made;
   made.view = index, made.color = m.color, made.lights = m.lights;
@@ -253,10 +255,8 @@ Drawing& Study::baseline(const Measurement& m, const Setting& s) {
 Times Study::timeRow(Drawing& base, Drawing& drawing) const {
   const bool cpu = onProcessor();
   const uint32_t wanted = options_.frames ? options_.frames : cpu ? 5 : 41;
-  // One pair says what a pair costs; a GPU is then warmed up by as many as will be timed.
-  const Clock::time_point begin = Clock::now();
-  base.draw(), drawing.draw();
-  const double pair_s = std::max(secondsSince(begin), 1e-6);
+  // What both have drawn last says what a pair costs; a GPU is then warmed up by as many pairs as will be timed.
+  const double pair_s = std::max(base.seconds() + drawing.seconds(), 1e-6);
   const double budget_s = options_.amount == Amount::quick ? 2.5 : options_.amount == Amount::full ? 25 : 12;
   const auto pairs = uint32_t(std::clamp(budget_s / pair_s, 2.0, double(wanted)));
   for (uint32_t i = 0; !cpu && i < pairs; ++i) base.draw(), drawing.draw();
@@ -433,7 +433,6 @@ int Study::run() {
     status_.show(next, rows_.size(), label + " " + m.capture, row_fragments_ > 0 ? estimateLeft(next) : -1);
     Row row;
     describe(m, row);
-    const bool new_setting = !prepared_.contains(settingKey(m));
     const double references_before = reference_s_;
     const Clock::time_point begin = Clock::now();
     try {
@@ -443,7 +442,6 @@ int Study::run() {
       row.set("status", failure.what());
       ++failed;
     }
-    (void)new_setting;
     row_s_ += secondsSince(begin) - (reference_s_ - references_before);
     row_fragments_ += double(std::find_if(views_.begin(), views_.end(), [&](const View& v) { return v.name == m.view; })->fragments);
     if (!host_->validationMessages().empty()) {

@@ -25,7 +25,7 @@ shaders/shared/ shaders/shared/.*
 shaders/lib/ shaders/(lib|shared)/.*
 shaders/passes/ shaders/(passes|lib|shared)/.*
 samples/common/ $public|samples/common/.*|vulkan
-samples/study/ $public|samples/(common|study)/.*|tests/reference/.*|vulkan
+samples/study/ $public|samples/(common|study)/.*|tests/reference/.*|vulkan|generated
 samples/minimal/ $public|vulkan
 samples/ $public|samples/.*|vulkan|generated
 tests/consumer/ $public|samples/common/.*|tests/consumer/.*|vulkan

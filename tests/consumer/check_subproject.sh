@@ -10,7 +10,7 @@ generator=
 # shellcheck disable=SC2086
 cmake -S "$forelock/tests/consumer/subproject" -B "$work" $generator -DFORELOCK_FOLDER="$forelock" \
   -DCMAKE_C_COMPILER="$3" -DCMAKE_CXX_COMPILER="$4" -DCMAKE_BUILD_TYPE=Debug
-for option in FORELOCK_COMMAND FORELOCK_TESTS FORELOCK_FUZZ; do
+for option in FORELOCK_COMMAND FORELOCK_STUDY FORELOCK_TESTS FORELOCK_FUZZ; do
   grep -q "^$option:BOOL=OFF" "$work/CMakeCache.txt" || { echo "$option is not OFF in a subproject"; exit 1; }
 done
 cmake --build "$work" --parallel 2

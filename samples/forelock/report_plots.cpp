@@ -13,7 +13,6 @@ namespace forelock::samples {
 
 namespace {
 
-constexpr double kFontPx = 15.0;
 constexpr const char* kInk = "#333333";
 
 std::string number(double value) {
@@ -35,8 +34,14 @@ struct Axis {
   std::string range() const { return "[" + number(low) + ":" + number(high) + "]"; }
   std::string ticList() const {
     std::string list;
-    for (const double tic : tics) list += (list.empty() ? "'" : ", '") + readableNumber(tic, 2) + "' " + number(tic);
+    for (const double tic : tics) list += (list.empty() ? "'" : ", '") + ticText(tic) + "' " + number(tic);
     return "(" + list + ")";
+  }
+  static std::string ticText(double tic) {
+    if (tic >= 1e4) return readableCount(tic);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", std::fabs(tic) < 1e-12 ? 0.0 : tic);
+    return text;
   }
 };
 
@@ -154,8 +159,9 @@ class Drawing {
            << "do for [kind in 'svg png'] {\n"
            << "  if (kind eq 'svg') {\n    set terminal svg noenhanced size " << width << "," << height
            << " font 'DejaVu Sans,Verdana,sans-serif,15' background rgb 'white'\n  } else {\n"
+           // Font sizes are pixels to the one and points of 96 to 72 pixels to the other.
            << "    set terminal pngcairo noenhanced size " << 2 * width << "," << 2 * height
-           << " font 'DejaVu Sans,15' fontscale 2 linewidth 2 pointscale 2 background rgb 'white'\n  }\n"
+           << " font 'DejaVu Sans,15' fontscale 1.5 linewidth 2 pointscale 2 background rgb 'white'\n  }\n"
            << "  set output '" << target << stem << ".'.kind\n"
            << "  set encoding utf8\n  set border 3 lc rgb '#777777'\n  set tics nomirror out scale 0.6 textcolor rgb '" << kInk
            << "'\n  set grid back lc rgb '#e4e4e4' lw 1 lt 1\n  set errorbars small\n  set style fill solid 1.0 noborder\n"

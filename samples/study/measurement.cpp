@@ -9,16 +9,6 @@ namespace {
 
 constexpr uint32_t kDefaultTaps = 25, kDefaultK = 8;
 
-// A generic function, so that it also compiles where the SDK has no such field yet.
-template <class Frame>
-bool setCoreTaps(Frame& frame, uint32_t taps) {
-  if constexpr (requires { frame.core_taps; }) {
-    frame.core_taps = taps;
-    return true;
-  }
-  return taps == kDefaultTaps;
-}
-
 class List {
 public:
   List(const Options& options, const Room& room) : options_(options), room_(room) {

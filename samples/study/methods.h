@@ -25,6 +25,11 @@ inline constexpr Method kMethods[] = {
     {"core_tail_list", [](FlkFrame& f) { f.method = FLK_METHOD_CORE_TAIL, f.tail = FLK_TAIL_LIST; }, true, true, true, true, true},
     {"core_only", [](FlkFrame& f) { f.method = FLK_METHOD_CORE_ONLY; }, true, true, true, true, true},
     {"all_low", [](FlkFrame& f) { f.method = FLK_METHOD_ALL_LOW; }, false, true, false, true, true},
+    // Cheaper or better tails: one shade a pixel for all of it; highlights on average, and in full, in the cheap shade.
+    {"core_tail_once", [](FlkFrame& f) { f.method = FLK_METHOD_CORE_TAIL, f.tail = FLK_TAIL_ONCE; }, true, true, true, true, false},
+    {"core_tail_lobes", [](FlkFrame& f) { f.method = FLK_METHOD_CORE_TAIL, f.low_shade = FLK_LOW_SHADE_LOBES; }, true, true, true, true, false},
+    {"all_low_mean_lobes", [](FlkFrame& f) { f.method = FLK_METHOD_ALL_LOW, f.low_shade = FLK_LOW_SHADE_MEAN_LOBES; }, false, true, false, true, false},
+    {"all_low_lobes", [](FlkFrame& f) { f.method = FLK_METHOD_ALL_LOW, f.low_shade = FLK_LOW_SHADE_LOBES; }, false, true, false, true, false},
     {"exact", [](FlkFrame& f) { f.method = FLK_METHOD_EXACT; }, false, false, true, true, true},
     {"hard", [](FlkFrame& f) { f.method = FLK_METHOD_HARD; }, false, false, true, false, false},
 };

@@ -60,7 +60,9 @@ TEST_F(HostileFeatures, theWholeFrameIsGood) {
 
 TEST_F(HostileFeatures, choices) {
   check({
-      {"tail", kInvalid, [](FlkFrame& f) { f.tail = 3; }},
+      {"tail", kInvalid, [](FlkFrame& f) { f.tail = 4; }},
+      {"low shade", kInvalid, [](FlkFrame& f) { f.low_shade = 3; }},
+      {"taps", kInvalid, [](FlkFrame& f) { f.core_taps = 5; }},
       {"tail", kInvalid, [](FlkFrame& f) { f.tail = UINT32_MAX; }},
       {"capture", kInvalid, [](FlkFrame& f) { f.capture = 3; }},
       {"overflow", kInvalid, [](FlkFrame& f) { f.overflow = 2; }},

@@ -2,6 +2,7 @@
 #include "reference_support.h"
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 
 namespace forelock::reference {

@@ -180,7 +180,7 @@ SceneLens readLens(const nlohmann::json& json) {
 
 Scene readScene(const nlohmann::json& json) {
   checkKeys(json, "", {"assets", "light", "lights", "ambient", "sky", "ambient_sh", "exposure", "camera", "size",
-                       "background", "head", "method", "k", "k_sort", "tail", "payload", "capture", "show", "near_fade",
+                       "background", "head", "method", "k", "k_sort", "tail", "low_shade", "core_taps", "payload", "capture", "show", "near_fade",
                        "lens"});
   Scene scene;
   KeyReader top(json, "");
@@ -223,6 +223,11 @@ Scene readScene(const nlohmann::json& json) {
   scene.payload = readChoice(top, "payload", payloadNames(), scene.payload);
   scene.display = readChoice(top, "show", displayNames(), scene.display);
   scene.tail = readChoice(top, "tail", tailNames(), scene.tail);
+  scene.low_shade = readChoice(top, "low_shade", lowShadeNames(), scene.low_shade);
+  top.integer("core_taps", scene.core_taps, 1, 25);
+  if (scene.core_taps != 0 && scene.core_taps != 1 && scene.core_taps != 4 && scene.core_taps != 9 && scene.core_taps != 25) {
+    throw SceneError("core_taps is " + std::to_string(scene.core_taps) + ", must be one of 1, 4, 9, 25");
+  }
   scene.capture = readChoice(top, "capture", captureNames(), scene.capture);
   if (top.has("near_fade")) {
     scene.near_fade = readNearFade(json.at("near_fade"));
@@ -399,6 +404,10 @@ std::string writeScene(const Scene& scene) {
   json["payload"] = payloadNames()[scene.payload];
   json["show"] = displayNames()[scene.display];
   json["tail"] = tailNames()[scene.tail];
+  json["low_shade"] = lowShadeNames()[scene.low_shade];
+  if (scene.core_taps != 0) {
+    json["core_taps"] = scene.core_taps;
+  }
   json["capture"] = captureNames()[scene.capture];
   if (scene.near_fade) {
     json["near_fade"] = {{"start_m", scene.near_fade->start_m}, {"end_m", scene.near_fade->end_m}};
@@ -421,7 +430,12 @@ const std::vector<std::string>& payloadNames() {
 }
 
 const std::vector<std::string>& tailNames() {
-  static const std::vector<std::string> names{"default", "deterministic", "list"};
+  static const std::vector<std::string> names{"default", "deterministic", "list", "once"};
+  return names;
+}
+
+const std::vector<std::string>& lowShadeNames() {
+  static const std::vector<std::string> names{"diffuse", "mean-lobes", "lobes"};
   return names;
 }
 

@@ -80,6 +80,8 @@ struct Scene {
   uint32_t payload = FLK_PAYLOAD_DEFAULT;
   uint32_t display = FLK_DISPLAY_SHADED;
   uint32_t tail = FLK_TAIL_DEFAULT;
+  uint32_t core_taps = 0;                // as in FlkFrame
+  uint32_t low_shade = FLK_LOW_SHADE_DEFAULT;
   uint32_t capture = FLK_CAPTURE_DEFAULT;
   std::optional<SceneNearFade> near_fade;
   std::optional<SceneLens> lens;
@@ -99,6 +101,7 @@ const std::vector<std::string>& methodNames();
 const std::vector<std::string>& payloadNames();
 const std::vector<std::string>& displayNames();
 const std::vector<std::string>& tailNames();
+const std::vector<std::string>& lowShadeNames();
 const std::vector<std::string>& captureNames();
 
 }  // namespace forelock::samples

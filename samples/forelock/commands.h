@@ -29,6 +29,7 @@ void addInspectCommand(CLI::App& program, int& exit_code);
 void addConvertCommand(CLI::App& program, int& exit_code);
 void addPreviewCommand(CLI::App& program, int& exit_code);
 void addPlanCommand(CLI::App& program, int& exit_code);
+void addReportCommand(CLI::App& program, int& exit_code);
 
 // Prints messages of severity warning and error (and info, if asked) to stderr as `forelock: text`.
 void printMessages(const std::vector<AssetMessage>& messages, bool with_info);

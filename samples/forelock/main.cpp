@@ -17,7 +17,8 @@ constexpr const char* kExamples =
     "  forelock plan groom:long-wavy             the passes and bytes that it takes; needs no device\n"
     "  forelock inspect pony.tfx                 what is in a file, and what is wrong with it\n"
     "  forelock convert pony.tfx pony.hair       another format; says what is lost\n"
-    "  forelock groom long-wavy hair.hair        write a procedural groom to a strand file\n\n"
+    "  forelock groom long-wavy hair.hair        write a procedural groom to a strand file\n"
+    "  forelock report study                     plots, pictures and a page of what forelock-study measured\n\n"
     "Exit status: 0 done; 1 the asset or a check failed; 2 wrong usage; 3 no usable device.\n"
     "Each subcommand has its own --help.";
 
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
   addInspectCommand(program, exit_code);
   addConvertCommand(program, exit_code);
   addGroomCommand(program, exit_code);
+  addReportCommand(program, exit_code);
 
   if (argc < 2) {
     std::fputs(program.help().c_str(), stderr);

@@ -115,8 +115,14 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--tail", arguments.tail,
                      "What lies behind the k-sort nearest\n"
                      "deterministic: a mean, the same from run to run [the default]\n"
-                     "list: in order of arrival, as in the paper")
+                     "list: in order of arrival, as in the paper\n"
+                     "once: its nearest fragment's colour for all of it")
       ->check(given(tailNames()))->type_name("NAME")->group(method);
+  command.add_option("--low-shade", arguments.low_shade,
+                     "The cheap shade of what is not in full quality: diffuse [the default], mean-lobes, lobes")
+      ->check(given(lowShadeNames()))->type_name("NAME")->group(method);
+  command.add_option("--core-taps", arguments.core_taps, "Reads of a hair shadow map for a full shade: 1, 4, 9, 25 [25]")
+      ->check(CLI::IsMember({1u, 4u, 9u, 25u}))->type_name("N")->group(method);
   command.add_option("--capture", arguments.capture, "Who turns strands into fragments: raster, compute [raster]")
       ->check(given(captureNames()))->type_name("NAME")->group(method);
   command.add_option("--payload", arguments.payload, "Coding of a stored fragment: default, paper")
@@ -177,6 +183,8 @@ Scene makeScene(const CLI::App& command, const SceneArguments& arguments) {
   if (asked("--k")) scene.k = arguments.k == 0 ? FLK_K_NONE : arguments.k;
   if (asked("--k-sort")) scene.k_sort = arguments.k_sort;
   if (asked("--tail")) scene.tail = indexOf(tailNames(), arguments.tail);
+  if (asked("--low-shade")) scene.low_shade = indexOf(lowShadeNames(), arguments.low_shade);
+  if (asked("--core-taps")) scene.core_taps = arguments.core_taps;
   if (asked("--capture")) scene.capture = indexOf(captureNames(), arguments.capture);
   if (asked("--payload")) scene.payload = indexOf(payloadNames(), arguments.payload);
   const uint32_t full = scene.k == FLK_K_NONE ? 0 : scene.k == 0 ? 8 : scene.k;

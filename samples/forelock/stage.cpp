@@ -325,6 +325,8 @@ StagedFrame::StagedFrame(const Stage& stage, const Camera& camera, const std::ve
   frame.payload = scene.payload;
   frame.display = scene.display;
   frame.tail = scene.tail;
+  frame.core_taps = scene.core_taps;
+  frame.low_shade = scene.low_shade;
   frame.capture = scene.capture;
   frame.timestamps = 1;
 }
@@ -347,6 +349,15 @@ std::string methodText(const Scene& scene) {
   }
   if (has_tail && scene.tail == FLK_TAIL_LIST) {
     text += ", tail in list order";
+  }
+  if (has_tail && scene.tail == FLK_TAIL_ONCE) {
+    text += ", tail shaded once";
+  }
+  if (has_tail && scene.low_shade != FLK_LOW_SHADE_DEFAULT) {
+    text += ", cheap shade with " + lowShadeNames()[scene.low_shade];
+  }
+  if (scene.core_taps != 0 && scene.core_taps != 25 && scene.method != FLK_METHOD_ALL_LOW) {
+    text += ", " + std::to_string(scene.core_taps) + (scene.core_taps == 1 ? " tap" : " taps");
   }
   if (scene.payload == FLK_PAYLOAD_PAPER && scene.method != FLK_METHOD_HARD) {
     text += ", payload of the paper";

@@ -29,15 +29,18 @@ ivec2 shadowTexel(vec2 position, int size) {
   return ivec2(floor(clamp(position, vec2(-most), vec2(most)))) + size / 2;
 }
 
-float shadowFull(texture2D map, ivec2 offset, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance) {
-  // exp(-i^2 / 2), i = -2 .. 2, sum 1.
-  const float weights[5] = float[5](0.0544886845, 0.2442013422, 0.4026199469, 0.2442013422, 0.0544886845);
-  ivec2 texel = shadowTexel(position.xy, size);
+// Mean of 1, 4, 9 or 25 taps, a texel apart, with weights exp(-(x^2 + y^2) / 2), x and y their distances to the middle of them all.
+float shadowFull(texture2D map, ivec2 offset, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance, uint taps) {
+  const float weights[8] = float[8](0.0544886845, 0.2442013422, 0.4026199469, 0.2442013422, 0.0544886845, 0.2740686137, 0.4518627726, 0.2740686137);
+  int side = taps == 25u ? 5 : taps == 9u ? 3 : taps == 4u ? 2 : 1;
+  int row = taps == 25u ? 0 : 5;
+  ivec2 texel = shadowTexel(taps == 4u ? position.xy - 0.5 : position.xy, size) - (side - 1) / 2;
   float light = 0.0;
-  for (int j = -2; j <= 2; ++j)
-    for (int i = -2; i <= 2; ++i)
-      light += weights[i + 2] * weights[j + 2] *
-               shadowTap(map, offset, texel + ivec2(i, j), size, position.z - bias, range, fibres_per_metre, log2_transmittance);
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i) {
+      float weight = taps == 1u ? 1.0 : taps == 4u ? 0.25 : weights[row + i] * weights[row + j];
+      light += weight * shadowTap(map, offset, texel + ivec2(i, j), size, position.z - bias, range, fibres_per_metre, log2_transmittance);
+    }
   return light;
 }
 

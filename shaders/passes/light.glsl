@@ -9,6 +9,8 @@ layout(constant_id = FLK_SPEC_FACES) const uint kFaces = uint(FLK_FACES_ORTHOGRA
 layout(constant_id = FLK_SPEC_HOST) const uint kHost = 0u;
 layout(constant_id = FLK_SPEC_AMBIENT) const bool kAmbient = false;
 layout(constant_id = FLK_SPEC_COUNT_WORK) const bool kCountWork = false;
+layout(constant_id = FLK_SPEC_TAPS) const uint kTaps = 25u;
+layout(constant_id = FLK_SPEC_LOW_SHADE) const int kLowShade = FLK_LOW_PLAIN;
 
 // What this invocation did, for kCountWork.
 uint full_shades = 0u, low_shades = 0u, shadow_taps = 0u;
@@ -108,9 +110,9 @@ float hairShadow(HairConstants hair, LightConstants source, vec3 position, vec3 
     texel *= at.z;
     at = vec3(at.xy / at.z * face.focal, length(at));
   }
-  if (kCountWork) shadow_taps += full ? 25u : 1u;
+  if (kCountWork) shadow_taps += full ? kTaps : 1u;
   float bias = shadowBias(tangent, L, texel);
-  return full ? shadowFull(shadow_map, ivec2(face.offset), at, int(face.size), bias, face.range, hair.fibres_per_metre, hair.shadow_log2)
+  return full ? shadowFull(shadow_map, ivec2(face.offset), at, int(face.size), bias, face.range, hair.fibres_per_metre, hair.shadow_log2, kTaps)
               : shadowLow(shadow_map, ivec2(face.offset), at, int(face.size), bias, face.range, hair.fibres_per_metre, hair.shadow_log2);
 }
 #endif
@@ -148,6 +150,12 @@ float hostLight(LightConstants source, vec3 position, uvec2 pixel) {
 }
 #endif
 
+// Both qualities differ in the shadow's reads, and in what they make of the lobes.
+vec3 shadeLight(HairConstants hair, vec3 fibre, vec3 tangent, vec3 L, vec3 to_eye, vec3 light, bool full) {
+  return full || kLowShade == FLK_LOW_LOBES ? shadeFull(hair, fibre, tangent, L, to_eye, light)
+                                                  : shadeLow(hair, fibre, tangent, L, light, kLowShade == FLK_LOW_MEAN_LOBES);
+}
+
 // One of many lights on a point of view space: docs/methods.md section 4.
 vec3 radianceOfLight(uint index, HairConstants hair, vec3 fibre, vec3 tangent, vec3 position, vec3 to_eye, uvec2 pixel, bool full) {
   LightConstants source = LightList(frame.lights).at[index];
@@ -173,7 +181,7 @@ vec3 radianceOfLight(uint index, HairConstants hair, vec3 fibre, vec3 tangent, v
   arriving *= hairShadow(hair, source, position, tangent, L, full);
 #endif
   vec3 light = arriving * source.radiance;
-  return full ? shadeFull(hair, fibre, tangent, L, to_eye, light) : shadeLow(hair, fibre, tangent, L, light);
+  return shadeLight(hair, fibre, tangent, L, to_eye, light, full);
 }
 
 vec3 radianceOfLights(HairConstants hair, vec3 fibre, FrameLight source, vec3 tangent, PixelRay ray, float depth, uvec2 pixel, bool full) {
@@ -204,10 +212,10 @@ vec3 radianceOfLights(HairConstants hair, vec3 fibre, FrameLight source, vec3 ta
 // The share of a sun that hair lets through at a depth of the pixel.
 float sunShadow(HairConstants hair, FrameLight source, vec3 tangent, PixelRay ray, float depth, bool full) {
 #ifdef FLK_BIND_SHADOW
-  if (kCountWork) shadow_taps += full ? 25u : 1u;
+  if (kCountWork) shadow_taps += full ? kTaps : 1u;
   vec3 at = ray.shadow_origin + depth * ray.shadow_step;
   float bias = shadowBias(tangent, source.direction, source.texel);
-  return full ? shadowFull(shadow_map, ivec2(0), at, source.size, bias, source.range, hair.fibres_per_metre, hair.shadow_log2)
+  return full ? shadowFull(shadow_map, ivec2(0), at, source.size, bias, source.range, hair.fibres_per_metre, hair.shadow_log2, kTaps)
               : shadowLow(shadow_map, ivec2(0), at, source.size, bias, source.range, hair.fibres_per_metre, hair.shadow_log2);
 #else
   return 1.0;
@@ -228,7 +236,7 @@ vec3 radianceLow(HairConstants hair, vec3 fibre, FrameLight source, vec3 tangent
   vec3 around = ambientOn(tangent, source.ambient) * hair.diffuse * fibre;
   if (kLights != FLK_LIGHTS_SUN) return around + radianceOfLights(hair, fibre, source, tangent, ray, depth, pixel, false);
   float light = sunShadow(hair, source, tangent, ray, depth, false);
-  return around + shadeLow(hair, fibre, tangent, source.direction, light * source.radiance);
+  return around + shadeLight(hair, fibre, tangent, source.direction, ray.to_eye, light * source.radiance, false);
 }
 
 #endif

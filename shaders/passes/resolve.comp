@@ -46,6 +46,7 @@ void main() {
   Key core[kSort];
   for (uint i = 0; i < kSort; ++i) core[i] = keyNone();
   Tail tail = emptyTail();
+  Key tail_front = keyNone();
   while (link != FLK_LINK_END) {
     Key key = readNode(link);
     if (keyLess(key, core[kSort - 1u], kOneHair, kColor))
@@ -53,9 +54,14 @@ void main() {
     if (key.depth == kDepthNone) continue;
     vec3 tangent, color = vec3(0.0);
     float alpha;
-    if (kTail == FLK_TAIL_KIND_NONE) unpackTangent(key.payload, kPayload, tangent, alpha);
+    if (kTail == FLK_TAIL_KIND_NONE || kTail == FLK_TAIL_KIND_ONCE) unpackTangent(key.payload, kPayload, tangent, alpha);
     else color = fragmentColor(key, source, false, alpha);
     addToTail(tail, alpha, color);
+    if (kTail == FLK_TAIL_KIND_ONCE && keyLess(key, tail_front, kOneHair, kColor)) tail_front = key;
+  }
+  if (kTail == FLK_TAIL_KIND_ONCE && tail_front.depth != kDepthNone) {
+    float alpha;
+    addColor(tail, tail.tau, fragmentColor(tail_front, source, false, alpha));
   }
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;

@@ -18,9 +18,10 @@ Tail emptyTail() { return Tail(vec3(0.0), 1.0, 0u, uvec3(0u), uvec3(0u), false);
 
 uint tauSteps(float alpha) { return uint(min(-log2(max(1.0 - alpha, 1.0 / 8192.0)), FLK_TAU_MOST) * FLK_TAU_STEPS + 0.5); }
 
-void addToMean(inout Tail tail, uint tau, vec3 color) {
-  // Saturates: 65536 is beyond what any picture shows.
-  tail.tau = tail.tau + tau < tail.tau ? 0xFFFFFFFFu : tail.tau + tau;
+// Saturates: 65536 is beyond what any picture shows.
+void addOpacity(inout Tail tail, uint tau) { tail.tau = tail.tau + tau < tail.tau ? 0xFFFFFFFFu : tail.tau + tau; }
+
+void addColor(inout Tail tail, uint tau, vec3 color) {
   if (kTail == FLK_TAIL_KIND_NONE) return;
   uvec3 steps = uvec3(clamp(color / frame.tail_range, 0.0, 1.0) * kColorSteps + 0.5);
   uvec3 product_high, product_low, carry;
@@ -29,12 +30,20 @@ void addToMean(inout Tail tail, uint tau, vec3 color) {
   tail.high += product_high + carry;
 }
 
+void addToMean(inout Tail tail, uint tau, vec3 color) {
+  addOpacity(tail, tau);
+  addColor(tail, tau, color);
+}
+
+// color: not read where the tail has none of its own yet.
 void addToTail(inout Tail tail, float alpha, vec3 color) {
   if (kTail == FLK_TAIL_KIND_LIST) {
     tail.color = alpha * color + (1.0 - alpha) * tail.color;
     tail.transmittance *= 1.0 - alpha;
   } else {
-    addToMean(tail, tauSteps(alpha), color);
+    uint tau = tauSteps(alpha);
+    if (kTail == FLK_TAIL_KIND_MEAN) addToMean(tail, tau, color);
+    else addOpacity(tail, tau);
     tail.opaque = tail.opaque || alpha >= 1.0;
   }
 }

@@ -23,6 +23,7 @@ struct HairConstants {
   float fibres_per_metre;
   float cos_r, sin_r;       // of 2 x tilt
   float cos_trt, sin_trt;   // of 3 x tilt
+  float mean_r, mean_trt;   // weights times the means of the lobes over all angles
   vec3 tip_color;
   float tip_blend;
   uvec2 positions, attributes, segments;
@@ -65,7 +66,7 @@ struct FrameConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(HairConstants) == 164);
+static_assert(sizeof(HairConstants) == 172);
 static_assert(sizeof(OpacityModifier) == 24);
 static_assert(sizeof(FrameConstants) == 320 + FLK_MAX_HAIRS * sizeof(HairConstants));
 }  // namespace forelock::gpu

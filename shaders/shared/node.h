@@ -50,7 +50,9 @@
 #define FLK_SPEC_MODIFIERS 14 // 2 bits for each modifier: its FLK_MODIFIER_...
 #define FLK_SPEC_COUNT_WORK 15 // 1: shades, taps and pixels are counted
 #define FLK_SPEC_COLORS_LISTED 16 // 1: the lists hold colours (output passes)
-#define FLK_SPEC_COUNT 17
+#define FLK_SPEC_TAPS 17     // shadow map reads of a full shade: 1, 4, 9, 25
+#define FLK_SPEC_LOW_SHADE 18 // FLK_LOW_SHADE_...
+#define FLK_SPEC_COUNT 19
 
 #define FLK_STORE_LISTS 0
 #define FLK_STORE_COUNT 1        // nothing is stored
@@ -60,6 +62,12 @@
 #define FLK_TAIL_KIND_LIST 0
 #define FLK_TAIL_KIND_MEAN 1
 #define FLK_TAIL_KIND_NONE 2     // opacity only
+#define FLK_TAIL_KIND_ONCE 3     // its nearest fragment's colour for all of it
+
+// FLK_LOW_SHADE_... of render.h.
+#define FLK_LOW_PLAIN 0
+#define FLK_LOW_MEAN_LOBES 1
+#define FLK_LOW_LOBES 2
 
 #define FLK_LIGHTS_NONE 0
 #define FLK_LIGHTS_SUN 1   // one, directional: read once a pixel

@@ -259,16 +259,22 @@ struct Variant {
   uint32_t method, tail;
   Method twin;
   TailOrder order;
-  bool ordered;  // depends on the order of arrival, which the rasteriser of lavapipe keeps
+  bool ordered = false;  // depends on the order of arrival, which the rasteriser of lavapipe keeps
+  uint32_t low_shade = FLK_LOW_SHADE_DEFAULT, core_taps = 0;
 };
 constexpr Variant kVariants[] = {
-    {"exact", FLK_METHOD_EXACT, FLK_TAIL_DEFAULT, Method::exact, TailOrder::list, false},
-    {"core_tail", FLK_METHOD_CORE_TAIL, FLK_TAIL_DETERMINISTIC, Method::core_tail, TailOrder::deterministic, false},
-    {"hard", FLK_METHOD_HARD, FLK_TAIL_DEFAULT, Method::hard, TailOrder::list, false},
-    {"core_only", FLK_METHOD_CORE_ONLY, FLK_TAIL_DEFAULT, Method::core_only, TailOrder::deterministic, false},
-    {"all_low", FLK_METHOD_ALL_LOW, FLK_TAIL_DETERMINISTIC, Method::all_low, TailOrder::deterministic, false},
+    {"exact", FLK_METHOD_EXACT, FLK_TAIL_DEFAULT, Method::exact, TailOrder::list},
+    {"core_tail", FLK_METHOD_CORE_TAIL, FLK_TAIL_DETERMINISTIC, Method::core_tail, TailOrder::deterministic},
+    {"hard", FLK_METHOD_HARD, FLK_TAIL_DEFAULT, Method::hard, TailOrder::list},
+    {"core_only", FLK_METHOD_CORE_ONLY, FLK_TAIL_DEFAULT, Method::core_only, TailOrder::deterministic},
+    {"all_low", FLK_METHOD_ALL_LOW, FLK_TAIL_DETERMINISTIC, Method::all_low, TailOrder::deterministic},
     {"core_tail, list order", FLK_METHOD_CORE_TAIL, FLK_TAIL_LIST, Method::core_tail, TailOrder::list, true},
     {"forward", FLK_METHOD_FORWARD, FLK_TAIL_LIST, Method::forward, TailOrder::list, true},
+    {"core_tail once, 9 taps", FLK_METHOD_CORE_TAIL, FLK_TAIL_ONCE, Method::core_tail, TailOrder::once, false, FLK_LOW_SHADE_DEFAULT, 9},
+    {"all_low, mean lobes", FLK_METHOD_ALL_LOW, FLK_TAIL_DETERMINISTIC, Method::all_low, TailOrder::deterministic, false, FLK_LOW_SHADE_MEAN_LOBES},
+    {"core_tail, lobes, 4 taps", FLK_METHOD_CORE_TAIL, FLK_TAIL_DETERMINISTIC, Method::core_tail, TailOrder::deterministic, false,
+     FLK_LOW_SHADE_LOBES, 4},
+    {"exact, 1 tap", FLK_METHOD_EXACT, FLK_TAIL_DEFAULT, Method::exact, TailOrder::list, false, FLK_LOW_SHADE_DEFAULT, 1},
 };
 
 // A picture without antialiasing jumps where a pixel's centre crosses a strand's edge, and where it lies within rounding of one
@@ -306,6 +312,9 @@ TEST_P(FeatureAt, MatchesItsTwin) {
       if (!feature.every_method && &variant - kVariants > 2) continue;
       if (variant.ordered && capture == FLK_CAPTURE_COMPUTE && variant.method != FLK_METHOD_FORWARD) continue;
       frame.method = variant.method, frame.tail = variant.tail;
+      frame.low_shade = variant.low_shade, frame.core_taps = variant.core_taps;
+      world->twin.low_shade = reference::LowShade(variant.low_shade);
+      world->twin.core_taps = variant.core_taps ? int(variant.core_taps) : 25;
       const reference::Image actual = world->image(world->render(frame));
       if (maps.empty() && !world->lights.empty()) maps = world->readMaps();
       reference::Image expected = world->expected(variant.twin, variant.order, maps);

@@ -78,7 +78,7 @@ FragmentLists gatherHard(const Scene& scene, const Camera& camera, const GatherO
 // Section 6. hard is for the lists of gatherHard: the nearest fragment, fully shaded and opaque.
 enum class Method { exact, forward, core_tail, core_only, all_low, hard };
 // Of core_tail, core_only and all_low; the tail of forward is in list order.
-enum class TailOrder { list, deterministic };
+enum class TailOrder { list, deterministic, once };
 
 struct ResolveOptions {
   Method method = Method::exact;
@@ -121,8 +121,13 @@ Image renderHard(const Scene& scene, const Camera& camera, std::span<const Light
 struct LobeInput {
   Vec3 tangent, to_light, to_eye;
 };
-// kd sin colour + kr lobe1 + kt lobe2 colour (the lobes only if full), without radiance.
-std::array<double, 3> shadeLobes(const Material& material, const LobeInput& input, bool full);
+enum class Lobes { none, mean, own };
+// kd sin colour + kr lobe1 + kt lobe2 colour, without radiance; the mean is over all angles.
+std::array<double, 3> shadeLobes(const Material& material, const LobeInput& input, Lobes lobes);
+inline std::array<double, 3> shadeLobes(const Material& material, const LobeInput& input, bool full) {
+  return shadeLobes(material, input, full ? Lobes::own : Lobes::none);
+}
+double meanLobe(double exponent);
 // faces[i]: the maps of light i; lights beyond the span are lit.
 std::array<double, 3> shadeFragmentLit(const Scene& scene, const Camera& camera,
                                        std::span<const std::span<const ShadowMap>> faces, int x, int y,

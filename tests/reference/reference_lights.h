@@ -49,8 +49,14 @@ std::vector<ShadowMap> renderShadowMaps(const Scene& scene);
 double shadowTap(double depth, double map_depth, double bias, double opacity, double spacing);
 double gaussianWeight(int i, int j);  // |i|, |j| <= 2; the 25 sum to 1
 // Light that reaches the world point on a strand of that unit tangent.
-double shadowLight(const ShadowMap& map, const Material& material, Vec3 position, Vec3 tangent, bool core);
-double shadowLight(std::span<const ShadowMap> faces, const Material& material, Vec3 position, Vec3 tangent, bool core);
+// by the mean of 1, 4, 9 or 25 taps.
+double shadowTaps(const ShadowMap& map, const Material& material, Vec3 position, Vec3 tangent, int taps);
+double shadowTaps(std::span<const ShadowMap> faces, const Material& material, Vec3 position, Vec3 tangent, int taps);
+// core: 25 taps, else one. Faces: a map or a span of them.
+template <class Faces>
+double shadowLight(const Faces& faces, const Material& material, Vec3 position, Vec3 tangent, bool core) {
+  return shadowTaps(faces, material, position, tangent, core ? 25 : 1);
+}
 
 // What of a light arrives at a world point, before any shadow. Both zero at the light itself.
 struct Arriving {

@@ -30,6 +30,7 @@ struct Tail {
   }
   void finish() {
     if (order == TailOrder::list) return;
+    if (order == TailOrder::once) sum_tau = 1;
     for (double& c : color) c = sum_tau > 0 ? (1 - transmittance) * c / sum_tau : 0;
   }
 };
@@ -64,6 +65,7 @@ Image resolveFaces(const Scene& scene, const Camera& camera, std::span<const std
           core[0].alpha = 1;
         }
       } else {
+        std::optional<Fragment> behind;
         for (size_t i = list.size(); i-- > 0;) {  // the last stored is met first
           Fragment out = list[i];
           if (core.size() < k_sort || (k_sort > 0 && nearer(out, core.back()))) {
@@ -73,9 +75,12 @@ Image resolveFaces(const Scene& scene, const Camera& camera, std::span<const std
             core.pop_back();
           }
           std::array<double, 3> color{};
-          if (method != Method::core_only) color = shade(out, method == Method::forward);
+          if (!behind || nearer(out, *behind)) behind = out;
+          if (method != Method::core_only && tail.order != TailOrder::once) color = shade(out, method == Method::forward);
           tail.add(out.alpha, color);
         }
+        // once: the colour of the nearest, which stands for all.
+        if (tail.order == TailOrder::once && behind) tail.color = shade(*behind, false);
         tail.finish();
       }
       double transmittance = 1;

@@ -108,6 +108,9 @@ struct LightTiles {
   std::vector<uint32_t> words{};
 };
 
+// The cheap shade of section 5.
+enum class LowShade { plain, mean_lobes, lobes };
+
 struct Scene {
   std::vector<Hair> hairs;  // in submission order
   std::vector<Light> lights;
@@ -115,6 +118,8 @@ struct Scene {
   // Nine coefficients of three channels; world space, order 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22.
   std::optional<std::array<std::array<double, 3>, 9>> ambient_sh{};
   LightTiles light_tiles{};
+  int core_taps = 25;  // of a full shade: 1, 4, 9 or 25
+  LowShade low_shade = LowShade::plain;
 };
 
 // Projections of conventions.md. The depth range is standard or reversed; offset moves the centre, in NDC.

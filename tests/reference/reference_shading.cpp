@@ -2,6 +2,7 @@
 #include "reference_vector.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace forelock::reference {
 namespace {
@@ -13,13 +14,25 @@ double lobe(double angle, double exponent) {
 
 }  // namespace
 
-std::array<double, 3> shadeLobes(const Material& material, const LobeInput& input, bool full) {
+// The integral over a whole turn by the midpoint rule, which for a periodic function converges with the number of its points.
+double meanLobe(double exponent) {
+  constexpr int points = 1 << 14;
+  double sum = 0;
+  for (int i = 0; i < points; ++i) sum += lobe(2 * std::numbers::pi * (i + 0.5) / points, exponent);
+  return sum / points;
+}
+
+std::array<double, 3> shadeLobes(const Material& material, const LobeInput& input, Lobes lobes) {
   const Vec3 t = input.tangent;
   const bool valid = !isZero(t) && std::isfinite(t.x + t.y + t.z);
   // Sines from cross products: exact where a root of 1 - cos^2 would lose them or turn negative.
   const double sin_l = valid ? std::min(1.0, length(cross(t, input.to_light))) : 1;
   double lobe_r = 0, lobe_trt = 0;
-  if (full && valid) {
+  if (lobes == Lobes::mean) {
+    lobe_r = meanLobe(material.exponent_r);
+    lobe_trt = meanLobe(material.exponent_trt);
+  }
+  if (lobes == Lobes::own && valid) {
     const double angle_r = std::atan2(sin_l, -dot(t, input.to_light));  // the mirrored light
     const double angle_v = std::atan2(length(cross(t, input.to_eye)), dot(t, input.to_eye));
     lobe_r = lobe(angle_r + 2 * material.cuticle_tilt - angle_v, material.exponent_r);
@@ -64,6 +77,9 @@ std::array<double, 3> shadeFragmentLit(const Scene& scene, const Camera& camera,
   Vec3 to_eye = toWorld({0, 0, 1});
   if (isPerspective(camera)) to_eye = normalizeOrZero(toWorld({-m[12], -m[13], -m[14]}) - position);
 
+  const Lobes kind = full || scene.low_shade == LowShade::lobes     ? Lobes::own
+                     : scene.low_shade == LowShade::mean_lobes ? Lobes::mean
+                                                               : Lobes::none;
   std::array<double, 3> out = ambientLight(scene, tangent);
   for (size_t c = 0; c < 3; ++c) out[c] *= material->kd * material->color[c];
   for (size_t i = 0; i < scene.lights.size(); ++i) {
@@ -71,10 +87,10 @@ std::array<double, 3> shadeFragmentLit(const Scene& scene, const Camera& camera,
     if (!lightReaches(scene.light_tiles, i, x, y)) continue;
     const Arriving arriving = arrivingLight(light, position);
     if (isZero(arriving.to_light)) continue;  // in the light itself
-    double reaching = i < faces.size() ? shadowLight(faces[i], *material, position, tangent, full) : 1;
+    double reaching = i < faces.size() ? shadowTaps(faces[i], *material, position, tangent, full ? scene.core_taps : 1) : 1;
     if (light.host_shadow) reaching *= hostShadowLight(*light.host_shadow, position);
     if (!light.visibility.empty()) reaching *= light.visibility[size_t(y) * size_t(camera.width) + size_t(x)];
-    const auto lobes = shadeLobes(*material, {tangent, arriving.to_light, to_eye}, full);
+    const auto lobes = shadeLobes(*material, {tangent, arriving.to_light, to_eye}, kind);
     for (size_t c = 0; c < 3; ++c) out[c] += arriving.radiance[c] * reaching * lobes[c];
   }
   return out;

@@ -125,7 +125,7 @@ double gaussianWeight(int i, int j) {
   return std::exp(-(i * i + j * j) / 2.0) / sum;
 }
 
-double shadowLight(const ShadowMap& map, const Material& material, Vec3 position, Vec3 tangent, bool core) {
+double shadowTaps(const ShadowMap& map, const Material& material, Vec3 position, Vec3 tangent, int taps) {
   if (map.size == 0 || !(map.rho > 0)) return 1;
   const bool perspective = map.focal > 0;
   const Vec3 q = position - (perspective ? map.origin : map.center);
@@ -135,40 +135,39 @@ double shadowLight(const ShadowMap& map, const Material& material, Vec3 position
   const double texel = perspective ? vz / map.focal : map.texel;
   const Vec3 from_light = perspective ? normalizeOrZero(q) : map.z;
   const double half = map.size / 2.0;
-  const double column = std::floor(perspective ? half + map.focal * vx / vz : (vx / map.rho + 1) / 2 * map.size);
-  const double row = std::floor(perspective ? half + map.focal * vy / vz : (vy / map.rho + 1) / 2 * map.size);
+  const double early = taps == 4 ? 0.5 : 0;  // an even number of taps lies around the position
+  const double column = std::floor((perspective ? half + map.focal * vx / vz : (vx / map.rho + 1) / 2 * map.size) - early);
+  const double row = std::floor((perspective ? half + map.focal * vy / vz : (vy / map.rho + 1) / 2 * map.size) - early);
   if (!(std::fabs(column) < 1e9) || !(std::fabs(row) < 1e9)) return 1;
   const double cosine = -dot(tangent, from_light);
   const double sine = length(cross(tangent, from_light));
   const double bias = texel * std::fabs(cosine) / std::max(sine, 0.1);
-  static const std::array<double, 25> weights = [] {
-    std::array<double, 25> w{};
-    for (int i = 0; i < 25; ++i) w[size_t(i)] = gaussianWeight(i % 5 - 2, i / 5 - 2);
-    return w;
-  }();
-  const int reach = core ? 2 : 0;
-  double light = 0;
-  for (int j = -reach; j <= reach; ++j) {
-    for (int i = -reach; i <= reach; ++i) {
-      const int x = int(column) + i, y = int(row) + j;
+  const int side = int(std::lround(std::sqrt(taps)));
+  double light = 0, sum = 0;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const int x = int(column) + i - (side - 1) / 2, y = int(row) + j - (side - 1) / 2;
       double tap = 1;
       if (x >= 0 && y >= 0 && x < map.size && y < map.size) {
         tap = shadowTap(depth, double(map.depth[size_t(y) * size_t(map.size) + size_t(x)]), bias,
                         material.shadow_opacity, material.fibre_spacing);
       }
-      light += core ? weights[size_t((j + 2) * 5 + i + 2)] * tap : tap;
+      const double dx = i - (side - 1) / 2.0, dy = j - (side - 1) / 2.0;  // from the middle of all taps
+      const double weight = side == 5 ? gaussianWeight(i - 2, j - 2) : std::exp(-(dx * dx + dy * dy) / 2);
+      light += weight * tap;
+      sum += weight;
     }
   }
-  return light;
+  return light / sum;
 }
 
-double shadowLight(std::span<const ShadowMap> faces, const Material& material, Vec3 position, Vec3 tangent, bool core) {
+double shadowTaps(std::span<const ShadowMap> faces, const Material& material, Vec3 position, Vec3 tangent, int taps) {
   if (faces.empty()) return 1;
   const ShadowMap* seen = &faces[0];
   for (const ShadowMap& face : faces.subspan(1)) {
     if (dot(position - face.origin, face.z) > dot(position - seen->origin, seen->z)) seen = &face;
   }
-  return shadowLight(*seen, material, position, tangent, core);
+  return shadowTaps(*seen, material, position, tangent, taps);
 }
 
 }  // namespace forelock::reference

@@ -299,7 +299,13 @@ enum { /* methods: docs/methods.md section 6 */
 enum { /* the tail of core_tail, core_only and all_low: docs/methods.md section 6 */
   FLK_TAIL_DEFAULT = 0,      /* FLK_TAIL_DETERMINISTIC */
   FLK_TAIL_DETERMINISTIC = 1,/* weighted by optical depth: the same bits whatever the order */
-  FLK_TAIL_LIST = 2          /* blended in list order, as in the paper */
+  FLK_TAIL_LIST = 2,         /* blended in list order, as in the paper */
+  FLK_TAIL_ONCE = 3          /* one shade a pixel: of the tail's nearest fragment, for all of it; the same bits whatever the order */
+};
+enum { /* the cheap shade of core_tail and all_low: docs/methods.md section 5 */
+  FLK_LOW_SHADE_DEFAULT = 0,    /* diffuse, as in the paper */
+  FLK_LOW_SHADE_MEAN_LOBES = 1, /* and what the lobes give on average over all angles */
+  FLK_LOW_SHADE_LOBES = 2       /* and the lobes */
 };
 enum { /* who turns strands into fragments */
   FLK_CAPTURE_DEFAULT = 0, /* FLK_CAPTURE_RASTER on a queue with graphics, else FLK_CAPTURE_COMPUTE */
@@ -391,6 +397,8 @@ typedef struct FlkFrame {
   FlkOutputImage outputs[FLK_OUTPUT_COUNT]; /* by FLK_OUTPUT_... */
   const double* previous_view_from_world;   /* 16, of the frame before, for velocity; NULL: the same as now */
   const float* previous_clip_from_view;     /* 16; NULL: the same as now */
+  uint32_t core_taps;        /* reads of a hair shadow map for a full shade: 1, 4, 9 or 25; 0 is 25 */
+  uint32_t low_shade;        /* FLK_LOW_SHADE_... */
 } FlkFrame;
 #define FLK_K_NONE 0xFFFFFFFFu
 

@@ -204,7 +204,10 @@ const char* frameFault(const FlkFrame& frame) {
   if ((frame.method == FLK_METHOD_CORE_TAIL || frame.method == FLK_METHOD_CORE_ONLY) && frame.k_sort && frame.k != FLK_K_NONE &&
       frame.k_sort < (frame.k ? frame.k : 8))
     return "frame.k_sort must not be less than k";
-  if (frame.tail > FLK_TAIL_LIST) return "frame.tail is none of FLK_TAIL_...";
+  if (frame.tail > FLK_TAIL_ONCE) return "frame.tail is none of FLK_TAIL_...";
+  if (frame.low_shade > FLK_LOW_SHADE_LOBES) return "frame.low_shade is none of FLK_LOW_SHADE_...";
+  const uint32_t taps = frame.core_taps;
+  if (taps != 0 && taps != 1 && taps != 4 && taps != 9 && taps != 25) return "frame.core_taps must be 1, 4, 9 or 25, or 0 for 25";
   if (frame.capture > FLK_CAPTURE_COMPUTE) return "frame.capture is none of FLK_CAPTURE_...";
   if (frame.overflow > FLK_OVERFLOW_DROP) return "frame.overflow is none of FLK_OVERFLOW_...";
   if (frame.count_only > 1 || frame.count_work > 1) return "frame.count_only and count_work must be 0 or 1";
@@ -499,7 +502,7 @@ FlkResult flkPlanGetInfo(FlkPlan plan, FlkPlanInfo* info) {
   info->rect[0] = p.rect.x, info->rect[1] = p.rect.y, info->rect[2] = p.rect.width, info->rect[3] = p.rect.height;
   info->segment_count = p.segments;
   info->node_capacity = p.node_capacity;
-  if (p.hasShadow()) info->full_shade_taps = p.method->full_taps, info->low_shade_taps = p.method->low_taps;
+  info->full_shade_taps = p.full_taps, info->low_shade_taps = p.low_taps;
   return FLK_SUCCESS;
 }
 
@@ -507,7 +510,7 @@ FlkResult flkPlanGetPass(FlkPlan plan, uint32_t index, FlkPassInfo* info) {
   if (!plan || !info || index >= toFrame(plan)->plan.passes.count) return FLK_ERROR_INVALID_ARGUMENT;
   const forelock::Pass& pass = toFrame(plan)->plan.passes.items[index];
   static_assert(forelock::kDisplayLayers == FLK_DISPLAY_LAYERS && forelock::kPayloadDefault == FLK_PAYLOAD_DEFAULT);
-  static_assert(forelock::kTailList == FLK_TAIL_LIST && forelock::kOutputCount == FLK_OUTPUT_COUNT);
+  static_assert(forelock::kTailList == FLK_TAIL_LIST && forelock::kTailOnce == FLK_TAIL_ONCE && forelock::kOutputCount == FLK_OUTPUT_COUNT);
   *info = {pass.name,    forelock::stageOf(pass.id), {pass.groups[0], pass.groups[1], pass.groups[2]}, pass.indices,
            pass.segments, toFrame(plan)->hashes[index]};
   return FLK_SUCCESS;

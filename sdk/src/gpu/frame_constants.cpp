@@ -4,6 +4,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 namespace forelock {
 namespace {
@@ -29,6 +30,11 @@ gpu::vec3 toVec3(const float* v) { return {v[0], v[1], v[2]}; }
 gpu::vec3 toVec3(const Vec3& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 gpu::uvec2 toAddress(VkDeviceAddress address) { return {uint32_t(address), uint32_t(address >> 32)}; }
 
+// Mean of max(0, cos)^exponent over all angles.
+double meanLobe(double exponent) {
+  return std::exp(std::lgamma((exponent + 1) / 2) - std::lgamma(exponent / 2 + 1)) / (2 * std::sqrt(std::numbers::pi));
+}
+
 gpu::HairConstants hairConstants(const FlkMaterial& material, const HairFacts& facts) {
   gpu::HairConstants h{};
   h.radius_max = float(facts.radius);
@@ -37,6 +43,8 @@ gpu::HairConstants hairConstants(const FlkMaterial& material, const HairFacts& f
   h.color = toVec3(material.color);
   h.specular_r = material.specular_r, h.exponent_r = material.exponent_r;
   h.specular_trt = material.specular_trt, h.exponent_trt = material.exponent_trt;
+  h.mean_r = float(double(material.specular_r) * meanLobe(double(material.exponent_r)));
+  h.mean_trt = float(double(material.specular_trt) * meanLobe(double(material.exponent_trt)));
   h.shadow_log2 = material.shadow_opacity < 1 ? float(std::log2(1.0 - double(material.shadow_opacity))) : -FLT_MAX;
   h.fibres_per_metre = float(std::min(1.0 / double(material.fibre_spacing), double(FLT_MAX)));
   const double tilt = material.cuticle_tilt;
@@ -211,7 +219,7 @@ void fillConstants(Frame& frame, const FlkFrame& asked, const Camera& camera, co
   const Sphere hairs = sphereOfAll({facts, asked.hair_count});
   c.color_range = c.tail_range = 1;
   if (plan.method->shaded) {
-    c.tail_range = brightestFragment(frame, asked, hairs, c, true);
+    c.tail_range = brightestFragment(frame, asked, hairs, c, plan.low_shade == FLK_LOW_PLAIN);
     if (plan.method->capture == CaptureKind::color)
       c.color_range = plan.payload == FLK_PAYLOAD_PAPER ? 1 / (asked.exposure == 0 ? 1.0f : asked.exposure)
                                                         : brightestFragment(frame, asked, hairs, c, false);

@@ -342,6 +342,7 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   facts.hairs = {hair_facts, asked.hair_count};
   facts.lights = light_facts;
   facts.method = asked.method, facts.display = asked.display, facts.payload = asked.payload, facts.tail = asked.tail;
+  facts.core_taps = asked.core_taps ? asked.core_taps : kFullTaps, facts.low_shade = asked.low_shade;
   facts.k = asked.k == FLK_K_NONE ? 0 : asked.k ? asked.k : 8;
   facts.k_sort = asked.k_sort ? asked.k_sort : std::max(8u, facts.k);
   if (asked.method == FLK_METHOD_ALL_LOW) facts.k = 0;

@@ -53,6 +53,8 @@ struct FrameFacts {
   uint32_t payload = 0;
   uint32_t tail = 0;                   // FLK_TAIL_...
   uint32_t k = 8, k_sort = 8;
+  uint32_t core_taps = kFullTaps;
+  uint32_t low_shade = 0;              // FLK_LOW_SHADE_...
   bool compute = false;                // capture and shadow maps without a rasteriser
   bool drop_overflow = false;
   bool count_only = false;

@@ -43,7 +43,7 @@ inline constexpr Method kLayersMethod = {"layers", CaptureKind::tangent, Resolve
 // Values of render.h, which this room does not see because it names Vulkan; api/render_api.cpp holds them equal.
 inline constexpr uint32_t kDisplayLayers = 5;
 inline constexpr uint32_t kPayloadDefault = 0;
-inline constexpr uint32_t kTailList = 2;
+inline constexpr uint32_t kTailList = 2, kTailOnce = 3;
 inline constexpr uint32_t kOutputCount = 4;
 
 inline constexpr uint32_t kMaxSort = 32;

@@ -221,10 +221,12 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity) {
     case TailKind::none: break;
     case TailKind::list: plan.tail = FLK_TAIL_KIND_LIST; break;
     case TailKind::opacity: plan.tail = FLK_TAIL_KIND_NONE; break;
-    case TailKind::choice: plan.tail = facts.tail == kTailList ? FLK_TAIL_KIND_LIST : FLK_TAIL_KIND_MEAN; break;
+    case TailKind::choice: plan.tail = facts.tail == kTailList ? FLK_TAIL_KIND_LIST : facts.tail == kTailOnce ? FLK_TAIL_KIND_ONCE : FLK_TAIL_KIND_MEAN; break;
   }
 
   planLights(facts, plan);
+  if (plan.hasShadow()) plan.full_taps = method.full_taps ? facts.core_taps : 0, plan.low_taps = method.low_taps;
+  if (method.low_taps) plan.low_shade = facts.low_shade;
   if (plan.fault) return plan;
   if (!plan.has_depth) plan.omissions.add("the depth test: the frame has no depth source");
   if (!plan.timestamps) plan.omissions.add("timestamps: not asked for");

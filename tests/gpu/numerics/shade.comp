@@ -19,5 +19,5 @@ void main() {
   out1(1, lobe(s.r.x, s.r.y, hair.exponent_r));
   out1(2, lobe(s.trt.x, s.trt.y, hair.exponent_trt));
   out1(3, shadeFull(hair, vec3(1.0), T, L, V, vec3(1.0)).r);
-  out1(4, shadeLow(hair, vec3(1.0), T, L, vec3(1.0)).r);
+  out1(4, shadeLow(hair, vec3(1.0), T, L, vec3(1.0), false).r);
 }

@@ -16,6 +16,6 @@ void main() {
   ivec2 corner = ivec2(in2(14));
   float bias = shadowBias(in3(3), in3(6), in1(9));
   out1(0, bias);
-  out1(1, shadowFull(shadow_map, corner, position, size, bias, in1(11), in1(12), in1(13)));
+  out1(1, shadowFull(shadow_map, corner, position, size, bias, in1(11), in1(12), in1(13), 25));
   out1(2, shadowLow(shadow_map, corner, position, size, bias, in1(11), in1(12), in1(13)));
 }

@@ -81,7 +81,7 @@ TEST(SceneFile, SaysWhatIsWrongWithLights) {
 }
 
 TEST(SceneFile, SaysWhatIsWrongWithTheRest) {
-  EXPECT_EQ(faultOf(R"({"tail": "long"})"), "tail is \"long\", must be one of default, deterministic, list");
+  EXPECT_EQ(faultOf(R"({"tail": "long"})"), "tail is \"long\", must be one of default, deterministic, list, once");
   EXPECT_EQ(faultOf(R"({"capture": "rays"})"), "capture is \"rays\", must be one of default, raster, compute");
   EXPECT_EQ(faultOf(R"({"near_fade": {}})"), "near_fade.end_m is missing");
   EXPECT_EQ(faultOf(R"({"near_fade": {"start_m": 2, "end_m": 2}})"), "near_fade.end_m is 2, must be beyond start_m");
@@ -194,6 +194,9 @@ TEST(SceneFile, EveryNameIsItsValue) {
   for (uint32_t i = 0; i <= FLK_METHOD_HARD; ++i) {
     EXPECT_EQ(parseScene(std::string(R"({"method": ")") + methods[i] + "\"}").method, i);
   }
+  EXPECT_EQ(parseScene(R"({"low_shade": "mean-lobes"})").low_shade, static_cast<uint32_t>(FLK_LOW_SHADE_MEAN_LOBES));
+  EXPECT_EQ(parseScene(R"({"core_taps": 9})").core_taps, 9u);
+  EXPECT_EQ(faultOf(R"({"core_taps": 5})"), "core_taps is 5, must be one of 1, 4, 9, 25");
   EXPECT_EQ(parseScene(R"({"tail": "list"})").tail, static_cast<uint32_t>(FLK_TAIL_LIST));
   EXPECT_EQ(parseScene(R"({"capture": "raster"})").capture, static_cast<uint32_t>(FLK_CAPTURE_RASTER));
   EXPECT_EQ(parseScene(R"({"capture": "compute"})").capture, static_cast<uint32_t>(FLK_CAPTURE_COMPUTE));
@@ -226,7 +229,7 @@ TEST(SceneFile, WrittenScenesReadBack) {
                  {"kind": "spot", "position": [0, 1, 0], "target": [0, 0, 0.5], "inner_angle": 3, "outer_angle": 40,
                   "color": "#9fc6ff", "shadow": false, "shadow_size": 512}],
       "sky": {"top": "#4a5a76", "horizon": "#808080", "bottom": "#2a2624", "intensity": 0.3},
-      "method": "hard", "tail": "list", "capture": "compute", "near_fade": {"start_m": 0.5, "end_m": 0.75},
+      "method": "hard", "tail": "list", "low_shade": "lobes", "core_taps": 4, "capture": "compute", "near_fade": {"start_m": 0.5, "end_m": 0.75},
       "lens": {"center": [0.25, 0.75], "radius": 0.2, "feather": 0.1, "inside": 0.5}})";
   const std::string rewritten = writeScene(parseScene(more));
   EXPECT_EQ(writeScene(parseScene(rewritten)), rewritten);

@@ -121,6 +121,9 @@ TEST_F(FrameFeature, WhatIsThereIsSeen) {
   differs("output", [&] { facts.outputs = 1; });
   differs("depth", [&] { facts.has_depth = true; });
   differs("tail", [&] { facts.tail = FLK_TAIL_LIST; });
+  differs("tail once", [&] { facts.tail = FLK_TAIL_ONCE; });
+  differs("taps", [&] { facts.core_taps = 9; });
+  differs("low shade", [&] { facts.low_shade = FLK_LOW_SHADE_MEAN_LOBES; });
   differs("host positions", [&] { hairs[0].host_positions = true; });
   differs("colours", [&] { hairs[0].colors = true; });
   differs("host shadow", [&] { lights[0].host_shadow = true; });
@@ -311,6 +314,7 @@ TEST_F(FrameFeature, Tails) {
     EXPECT_EQ(tail(method, FLK_TAIL_DEFAULT), uint32_t(FLK_TAIL_KIND_MEAN));
     EXPECT_EQ(tail(method, FLK_TAIL_DETERMINISTIC), uint32_t(FLK_TAIL_KIND_MEAN));
     EXPECT_EQ(tail(method, FLK_TAIL_LIST), uint32_t(FLK_TAIL_KIND_LIST));
+    EXPECT_EQ(tail(method, FLK_TAIL_ONCE), uint32_t(FLK_TAIL_KIND_ONCE));
   }
   EXPECT_EQ(tail(FLK_METHOD_CORE_ONLY, FLK_TAIL_LIST), uint32_t(FLK_TAIL_KIND_NONE));
   EXPECT_EQ(tail(FLK_METHOD_FORWARD, FLK_TAIL_DETERMINISTIC), uint32_t(FLK_TAIL_KIND_LIST));

@@ -73,7 +73,7 @@ const std::vector<Member> kHairMembers = [] {
       FLK_AT(view_from_hair), FLK_AT(radius_max),   FLK_AT(opacity_root), FLK_AT(opacity_tip),      FLK_AT(diffuse),
       FLK_AT(color),          FLK_AT(specular_r),   FLK_AT(exponent_r),   FLK_AT(specular_trt),     FLK_AT(exponent_trt),
       FLK_AT(shadow_log2),    FLK_AT(fibres_per_metre), FLK_AT(cos_r),    FLK_AT(sin_r),            FLK_AT(cos_trt),
-      FLK_AT(sin_trt),        FLK_AT(tip_color),    FLK_AT(tip_blend),    FLK_AT(positions),        FLK_AT(attributes),
+      FLK_AT(sin_trt),        FLK_AT(mean_r),       FLK_AT(mean_trt),     FLK_AT(tip_color),    FLK_AT(tip_blend),    FLK_AT(positions),        FLK_AT(attributes),
       FLK_AT(segments),       FLK_AT(colors)};
 }();
 

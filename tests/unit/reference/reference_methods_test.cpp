@@ -75,6 +75,24 @@ TEST(ReferenceMethods, DeterministicTailOfOneColorIsTheList) {
   EXPECT_NEAR(one.resolved(Method::core_tail, 1, TailOrder::deterministic).rgb[0], 0.4 * 0.2 + 0.6 * 0.6 * 0.9, 1e-15);
 }
 
+// One colour for all of the tail: the nearest's, whatever lies behind and in which order it was stored.
+TEST(ReferenceMethods, TailShadedOnce) {
+  Stack stack;
+  stack.add(3, 0.5, 0.1);
+  stack.add(1, 0.25, 0.8);
+  stack.add(2, 0.5, 0.6);
+  const Pixel pixel = stack.resolved(Method::core_tail, 1, TailOrder::once);
+  EXPECT_NEAR(pixel.rgb[0], 0.25 * 0.8 + 0.75 * (1 - 0.25) * 0.6, 1e-15);
+  EXPECT_NEAR(pixel.transmittance, 0.75 * 0.25, 1e-15);
+}
+
+TEST(ReferenceMethods, MeanLobeIsTheIntegralOfThePower) {
+  for (const double n : {0.0, 1.0, 2.0, 11.8, 14.4, 100.0, 1e4}) {
+    const double closed = std::exp(std::lgamma((n + 1) / 2) - std::lgamma(n / 2 + 1)) / (2 * std::sqrt(std::numbers::pi));
+    EXPECT_NEAR(meanLobe(n), closed, 1e-4 * closed) << n;  // the midpoint rule on a jump (n = 0) and a kink (n = 1)
+  }
+}
+
 TEST(ReferenceMethods, DeterministicTailInClosedForm) {
   Stack stack;
   stack.add(1, 0.5, 0.3);          // tau 1

@@ -158,10 +158,10 @@ class Drawing {
     script << "# gnuplot " << stem << ".gp      draws " << target << stem << ".svg and .png again, in this folder\n"
            << "do for [kind in 'svg png'] {\n"
            << "  if (kind eq 'svg') {\n    set terminal svg noenhanced size " << width << "," << height
-           << " font 'DejaVu Sans,Verdana,sans-serif,15' background rgb 'white'\n  } else {\n"
+           << " font 'DejaVu Sans,Verdana,sans-serif,15' background rgb 'white'\n    dot = 0.8\n  } else {\n"
            // Font sizes are pixels to the one and points of 96 to 72 pixels to the other.
            << "    set terminal pngcairo noenhanced size " << 2 * width << "," << 2 * height
-           << " font 'DejaVu Sans,15' fontscale 1.5 linewidth 2 pointscale 2 background rgb 'white'\n  }\n"
+           << " font 'DejaVu Sans,15' fontscale 1.5 linewidth 2 pointscale 2 background rgb 'white'\n    dot = 1.15\n  }\n"
            << "  set output '" << target << stem << ".'.kind\n"
            << "  set encoding utf8\n  set border 3 lc rgb '#777777'\n  set tics nomirror out scale 0.6 textcolor rgb '" << kInk
            << "'\n  set grid back lc rgb '#e4e4e4' lw 1 lt 1\n  set errorbars small\n  set style fill solid 1.0 noborder\n"
@@ -332,7 +332,7 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
   const std::string front_index = std::to_string(all.size());
   if (!front_rows.empty()) {
     parts.push_back(path + " index " + front_index + " using 1:2 with steps lc rgb '#d2d2d2' lw 5 notitle");
-    parts.push_back(path + " index " + front_index + " using 1:2 with points pt 6 ps 2.3 lw 1.5 lc rgb '#8c8c8c' notitle");
+    parts.push_back(path + " index " + front_index + " using 1:2 with points pt 6 ps 2.3*dot lw 1.5 lc rgb '#8c8c8c' notitle");
   }
   for (size_t i = 0; i < all.size(); ++i) {
     const Series& series = all[i];
@@ -343,18 +343,18 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
     if (series.rows.size() > 1) {
       parts.push_back(at + " using 1:2 with lines lw 2" + (dashed ? " dt 2" : "") + color + " notitle");
     }
-    parts.push_back(at + " using ($5==1?$1:NaN):2:3:4 with xerrorbars lw 1.4 ps 1.1 pt " + std::to_string(style.point) + color + " notitle");
-    parts.push_back(at + " using ($5==0?$1:NaN):2:3:4 with xerrorbars lw 1.4 ps 1.1 pt " + std::to_string(style.point - 1) + color + " notitle");
+    parts.push_back(at + " using ($5==1?$1:NaN):2:3:4 with xerrorbars lw 1.4 ps 1.1*dot pt " + std::to_string(style.point) + color + " notitle");
+    parts.push_back(at + " using ($5==0?$1:NaN):2:3:4 with xerrorbars lw 1.4 ps 1.1*dot pt " + std::to_string(style.point - 1) + color + " notitle");
     if (titled.insert(series.method).second) {
-      parts.push_back("keyentry with linespoints lw 2 ps 1.1 pt " + std::to_string(style.point) + color + " title " + gnuplotText(series.method));
+      parts.push_back("keyentry with linespoints lw 2 ps 1.1*dot pt " + std::to_string(style.point) + color + " title " + gnuplotText(series.method));
     }
   }
   block(front_rows, "front", nullptr);
   if (!front_rows.empty()) {
-    parts.push_back("keyentry with linespoints lw 5 pt 6 ps 2.3 lc rgb '#c2c2c2' title 'Pareto front'");
+    parts.push_back("keyentry with linespoints lw 5 pt 6 ps 2.3*dot lc rgb '#c2c2c2' title 'Pareto front'");
   }
   if (hollow > 0) {
-    parts.push_back("keyentry with points pt 6 ps 1.1 lw 1.4 lc rgb '#555555' title 'hollow: doubtful'");
+    parts.push_back("keyentry with points pt 6 ps 1.1*dot lw 1.4 lc rgb '#555555' title 'hollow: doubtful'");
   }
   body << "  plot ";
   for (size_t i = 0; i < parts.size(); ++i) body << (i == 0 ? "" : ", \\\n    ") << parts[i];
@@ -405,7 +405,9 @@ void drawBars(Drawing& drawing, const std::string& stem, const std::vector<PassB
   const double height = at + 110.0;
   std::ostringstream body, data;
   Axis x = linearAxis(most);
-  x.high = 1.38 * most;  // room for what is said at the ends
+  size_t longest = 0;
+  for (const PassBar& bar : bars) longest = std::max(longest, bar.note.size());
+  x.high = (longest > 12 ? 1.38 : 1.12) * most;  // room for what is said at the ends
   const double left = plot.section == "passes" && !bars.front().group.empty() ? 225.0 : 170.0;
   body << "  set lmargin at screen " << number(left / width) << "\n  set rmargin at screen 0.985\n  set bmargin at screen "
        << number(58.0 / height) << "\n  set tmargin at screen " << number(1.0 - 42.0 / height) << "\n  set xrange " << x.range()
@@ -557,7 +559,7 @@ void drawTailCost(Drawing& drawing, const std::string& capture) {
     data << "# " << lines[i].method << '\n';
     for (const auto& [view, ms] : lines[i].points) data << number(view->hair_pixels / 1e3) << '\t' << number(ms) << '\n';
     data << "\n\n";
-    body << (i == 0 ? "" : ", \\\n    ") << "'" << stem << ".dat' index " << i << " using 1:2 with linespoints lw 2 ps 1.2 pt " << style.point
+    body << (i == 0 ? "" : ", \\\n    ") << "'" << stem << ".dat' index " << i << " using 1:2 with linespoints lw 2 ps 1.2*dot pt " << style.point
          << " lc rgb '" << style.color << "' title " << gnuplotText(lines[i].method);
     const auto& [view, ms] = lines[i].points.back();
     ends += (ends.empty() ? "" : "; ") + lines[i].method + " " + readableNumber(ms) + " ms at " + view->name;
@@ -688,7 +690,7 @@ void drawSweep(Drawing& drawing, const Sweep& sweep, const Setting& setting) {
          << "  plot ";
     for (size_t i = 0; i < sweep.series.size(); ++i) {
       const MethodStyle style = methodStyle(facts, sweep.series[i].method);
-      body << (i == 0 ? "" : ", \\\n    ") << "'" << stem << ".dat' index " << i << " using " << panel.use << " with linespoints lw 2 ps 1.1 pt "
+      body << (i == 0 ? "" : ", \\\n    ") << "'" << stem << ".dat' index " << i << " using " << panel.use << " with linespoints lw 2 ps 1.1*dot pt "
            << style.point << " lc rgb '" << style.color << "' title " << gnuplotText(sweep.series[i].method);
     }
     body << '\n';

@@ -100,7 +100,7 @@ const std::string& mainView(const std::vector<std::string>& views) {
   return found == views.end() ? views.front() : *found;
 }
 
-bool applyMeasurement(const Measurement& m, FlkFrame& frame) {
+void applyMeasurement(const Measurement& m, FlkFrame& frame) {
   m.method->set(frame);
   frame.k = m.k ? m.k : FLK_K_NONE;
   frame.k_sort = m.k_sort;
@@ -111,7 +111,7 @@ bool applyMeasurement(const Measurement& m, FlkFrame& frame) {
   // Of the paper's payload alone: colours up to 4, since fragments are brighter than the pixels they make up.
   frame.exposure = 0.25f;
   frame.timestamps = 1;
-  return setCoreTaps(frame, m.core_taps);
+  frame.core_taps = m.core_taps;
 }
 
 std::vector<Measurement> listMeasurements(const Options& options, const Room& room) {

@@ -38,7 +38,7 @@ std::vector<Measurement> listMeasurements(const Options& options, const Room& ro
 // The view that sweeps are made in.
 const std::string& mainView(const std::vector<std::string>& views);
 
-// Fills in method, k and so on of a frame. False: this SDK cannot do it.
-bool applyMeasurement(const Measurement& measurement, FlkFrame& frame);
+// Fills in method, k and so on of a frame.
+void applyMeasurement(const Measurement& measurement, FlkFrame& frame);
 
 }  // namespace forelock::study

@@ -255,11 +255,14 @@ Drawing& Study::baseline(const Measurement& m, const Setting& s) {
 Times Study::timeRow(Drawing& base, Drawing& drawing) const {
   const bool cpu = onProcessor();
   const uint32_t wanted = options_.frames ? options_.frames : cpu ? 5 : 41;
-  // What both have drawn last says what a pair costs; a GPU is then warmed up by as many pairs as will be timed.
+  // What both have drawn last says what a pair costs; a GPU is then warmed up by as many pairs as will be timed, and for long enough
+  // to bring its clocks up again, which fall while references are made.
   const double pair_s = std::max(base.seconds() + drawing.seconds(), 1e-6);
   const double budget_s = options_.amount == Amount::quick ? 2.5 : options_.amount == Amount::full ? 25 : 12;
   const auto pairs = uint32_t(std::clamp(budget_s / pair_s, 2.0, double(wanted)));
-  for (uint32_t i = 0; !cpu && i < pairs; ++i) base.draw(), drawing.draw();
+  constexpr double kWarmUp_s = 0.5;
+  const Clock::time_point began = Clock::now();
+  for (uint32_t i = 0; !cpu && (i < pairs || secondsSince(began) < kWarmUp_s); ++i) base.draw(), drawing.draw();
   Times times;
   for (uint32_t i = 0; i < pairs; ++i) {
     times.baseline.push_back(base.draw());

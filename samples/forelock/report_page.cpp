@@ -77,6 +77,20 @@ std::string escaped(const std::string& text, size_t most = 300) {
 
 std::string known(double value, int digits = 3) { return std::isfinite(value) ? readableNumber(value, digits) : "-"; }
 
+// Digits that say nothing are left out: "8", "0.25".
+std::string compact(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string compactSize(const StudyView& view) {
+  if (!std::isfinite(view.width) || !std::isfinite(view.height)) return "-";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.0f&#215;%.0f", view.width, view.height);
+  return text;
+}
+
 std::string percent(double share) { return readableNumber(100.0 * share, share < 0.1 ? 2 : 3) + " %"; }
 
 class Page {
@@ -187,7 +201,7 @@ class Page {
         << cell("hair pixels", true, "th") << cell("fragments", true, "th") << cell("mean of a hair pixel", true, "th")
         << cell("most of a pixel", true, "th") << "</tr>\n";
     for (const StudyView& view : facts.views) {
-      out << "<tr>" << cell(escaped(view.name, 60)) << cell(readableCount(view.width) + " x " + readableCount(view.height), true)
+      out << "<tr>" << cell(escaped(view.name, 60)) << cell(compactSize(view), true)
           << cell(readableCount(view.hair_pixels), true) << cell(readableCount(view.fragments), true) << cell(known(view.mean_overdraw), true)
           << cell(readableCount(view.max_overdraw), true) << "</tr>\n";
     }
@@ -301,7 +315,7 @@ class Page {
     }
     for (int i = 0; i <= 4; ++i) {
       out << "<text x=\"" << left + i * (width - 40) / 4 << "\" y=\"34\" font-size=\"13\" text-anchor=\"middle\" fill=\"currentColor\">"
-          << readableNumber(255.0 / scale * i / 4, 3) << (i == 4 ? "+" : "") << "</text>";
+          << compact(std::round(2550.0 / scale * i / 4) / 10.0) << (i == 4 ? "+" : "") << "</text>";
     }
     out << "</svg>\n";
   }
@@ -367,21 +381,26 @@ class Page {
         out << "</div>\n";
       }
       differenceLegend(group.scale);
-      out << "<figcaption>Differences times " << readableNumber(group.scale) << ", the same for all methods: black is none, white is "
-          << readableNumber(255.0 / group.scale) << " of 255 and more.</figcaption></figure>\n";
+      out << "<figcaption>Differences times " << compact(group.scale) << ", the same for all methods: black is none, white is "
+          << compact(255.0 / group.scale) << " of 255 and more.</figcaption></figure>\n";
       for (const MethodPicture* picture : methods) {
         out << "<figure>";
         if (first) {
           out << "<div class=\"pair\"><div><span>" << escaped(picture->method, 60) << "</span>" << image(picture->image, picture->method)
-              << "</div>\n<div><span>difference from R_exact, times " << readableNumber(group.scale) << "</span>"
+              << "</div>\n<div><span>difference from R_exact, times " << compact(group.scale) << "</span>"
               << image(picture->difference, "difference of " + picture->method) << "</div></div>\n<div style=\"margin-top: 0.6rem\">";
-          detail(*picture);
+          if (!picture->detail.empty()) detail(*picture);
           out << "</div>";
-        } else {
+        } else if (!picture->detail.empty()) {
           detail(*picture);
         }
-        out << "<figcaption><b>" << escaped(picture->method, 60) << ".</b> " << numbersOf(*picture) << " The worst square lies "
-            << picture->detail_x << " pixels from the left and " << picture->detail_y << " from the top.</figcaption></figure>\n";
+        out << "<figcaption><b>" << escaped(picture->method, 60) << ".</b> " << numbersOf(*picture);
+        if (picture->detail.empty()) {
+          out << " This picture is R_exact's, bit for bit after clamping.";
+        } else {
+          out << " The worst square lies " << picture->detail_x << " pixels from the left and " << picture->detail_y << " from the top.";
+        }
+        out << "</figcaption></figure>\n";
       }
       if (!first) out << "</details>\n";
       first = false;

@@ -151,14 +151,13 @@ void findWorst(const std::vector<float>& difference, uint32_t width, uint32_t he
       at(x + 1, y + 1) = d * d + at(x, y + 1) + at(x + 1, y) - at(x, y);
     }
   }
-  double most = -1.0;
+  double most = 0.0;
   for (uint32_t y = 0; y + size <= height; y += 4) {
     for (uint32_t x = 0; x + size <= width; x += 4) {
       const double sum = at(x + size, y + size) - at(x, y + size) - at(x + size, y) + at(x, y);
-      if (sum > most) most = sum, picture.detail_x = x, picture.detail_y = y;
+      if (sum > most) most = sum, picture.detail_x = x, picture.detail_y = y, picture.detail_size = size;
     }
   }
-  picture.detail_size = size;
 }
 
 // Parts of images of one size beside each other, each pixel as a square.
@@ -282,9 +281,11 @@ void makeGroup(Maker& maker, const Setting& setting, const FloatPicture* layers)
     one.picture.off_scale = hair > 0 ? static_cast<double>(off) / static_cast<double>(hair) : 0.0;
     const Image image = shown(one.image);
     one.picture.image = maker.save(name, image);
-    one.picture.detail = maker.save(name + "-detail", magnified({&image, &exact_image, &difference}, one.picture.detail_x,
-                                                                one.picture.detail_y, one.picture.detail_size));
-    if (std::min(exact->width, exact->height) > 2 * one.picture.detail_size) frame(difference, one.picture);
+    if (one.picture.detail_size > 0) {
+      one.picture.detail = maker.save(name + "-detail", magnified({&image, &exact_image, &difference}, one.picture.detail_x,
+                                                                  one.picture.detail_y, one.picture.detail_size));
+      if (std::min(exact->width, exact->height) > 2 * one.picture.detail_size) frame(difference, one.picture);
+    }
     one.picture.difference = maker.save(name + "-difference", difference);
     group.methods.push_back(std::move(one.picture));
   }

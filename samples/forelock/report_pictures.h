@@ -27,7 +27,7 @@ struct LayersPicture {
 
 struct MethodPicture {
   std::string method;
-  std::string image, difference, detail;  // .png
+  std::string image, difference, detail;  // .png; no detail where nothing differs
   uint32_t detail_x = 0, detail_y = 0, detail_size = 0;  // the worst region, pixels from the upper left of the crop
   double rmse = 0.0, p999 = 0.0;  // of these very pictures, 0..442
   double off_scale = 0.0;         // share of the hair pixels that are brighter than the scale

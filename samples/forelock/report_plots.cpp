@@ -657,7 +657,7 @@ void drawSweep(Drawing& drawing, const Sweep& sweep, const Setting& setting) {
   std::ostringstream body, data;
   const std::string stem = drawing.stem(std::string("sweep-") + sweep.dial->column);
   body << "  set multiplot\n  set xrange [-0.35:" << number(static_cast<double>(values.size()) - 0.65) << "]\n  set xtics (" << tics << ")\n"
-       << "  set bmargin at screen 0.16\n  set tmargin at screen 0.90\n";
+       << "  set bmargin at screen 0.18\n  set tmargin at screen 0.90\n";
   struct Panel {
     const char* title;
     double left, right;
@@ -669,7 +669,8 @@ void drawSweep(Drawing& drawing, const Sweep& sweep, const Setting& setting) {
     for (const double ms : times) most = std::isfinite(ms) ? std::max(most, ms) : most;
     return linearAxis(most);
   }();
-  const Panel panels[] = {{"error", 0.06, 0.41, valueAxis(errors), "1:2"}, {"time (ms)", 0.475, 0.825, time_axis, "1:3"}};
+  const std::string error_title = std::string("error, ") + facts.error->name;
+  const Panel panels[] = {{error_title.c_str(), 0.06, 0.41, valueAxis(errors), "1:2"}, {"time (ms)", 0.475, 0.825, time_axis, "1:3"}};
   data << "# a block a method: place on the axis, error (" << facts.error->name << "), ms, value\n";
   for (const Series& series : sweep.series) {
     data << "# " << gnuplotText(series.method) << '\n';
@@ -685,7 +686,7 @@ void drawSweep(Drawing& drawing, const Sweep& sweep, const Setting& setting) {
          << (panel.axis.logarithmic ? "  set logscale y\n" : "  unset logscale y\n") << "  set yrange " << panel.axis.range() << "\n  set ytics "
          << panel.axis.ticList() << "\n  set label 1 " << gnuplotText(panel.title) << " at screen " << number(panel.left) << ",0.95 left tc rgb '"
          << kInk << "'\n  set label 2 " << gnuplotText(sweep.dial->label) << " at screen " << number((panel.left + panel.right) / 2.0)
-         << ",0.045 center font ',14' tc rgb '" << kInk << "'\n"
+         << ",0.04 center font ',14' tc rgb '" << kInk << "'\n"
          << (is_last ? "  set key at screen 0.84,0.91 left top Left reverse samplen 1.6 spacing 1.3 textcolor rgb '#333333'\n" : "  unset key\n")
          << "  plot ";
     for (size_t i = 0; i < sweep.series.size(); ++i) {

@@ -70,10 +70,13 @@ void main() {
   if (rest.tau > 0.0) shadeSlab(slab, rest, source, kFull > 0u);
 #endif
   [[dont_unroll]] for (uint i = 0; i < kSort; ++i) {
-    if (core[i].depth == kDepthNone) break;
-    if (!kColors && rest.tau > 0.0) passSlab(slab, rest, uintBitsToFloat(core[i].depth), color_sum, transmittance);
+    // The nearest that is left moves to the front: an index that is not constant would take the array out of registers.
+    Key key = core[0];
+    for (uint j = 1u; j < kSort; ++j) core[j - 1u] = core[j];
+    if (key.depth == kDepthNone) break;
+    if (!kColors && rest.tau > 0.0) passSlab(slab, rest, uintBitsToFloat(key.depth), color_sum, transmittance);
     float alpha;
-    vec3 color = fragmentColor(core[i], source, i < kFull, alpha);
+    vec3 color = fragmentColor(key, source, i < kFull, alpha);
     color_sum += transmittance * alpha * color;
     transmittance *= 1.0 - alpha;
   }

@@ -56,7 +56,7 @@ std::string commandLine(const ReportArguments& arguments) {
 int runReport(const ReportArguments& arguments) {
   const StudyTable table = readStudy(arguments.study);
   for (const std::string& warning : table.warnings) {
-    std::fprintf(stderr, "forelock: %s: %s\n", (fs::path(arguments.study) / "study.csv").c_str(), warning.c_str());
+    std::fprintf(stderr, "forelock: %s: %s\n", arguments.study.c_str(), warning.c_str());
   }
   const StudyFacts facts(table, arguments.error);
   const std::string folder = arguments.out.empty() ? arguments.study : arguments.out;

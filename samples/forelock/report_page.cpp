@@ -238,7 +238,7 @@ class Page {
     for (const char* method : {"core_tail", "core_only", "all_low", "forward", "exact"}) {
       const StudyRow* row = facts.baseRow(setting, method);
       if (!row || !std::isfinite(row->rmse_exact)) continue;
-      std::string what = std::string("is the RMSE of ") + method + (std::isnan(row->k) || method == std::string_view("exact") ? "" : " at k " + readableNumber(row->k)) +
+      std::string what = std::string("is the RMSE of ") + method + (std::isnan(row->k) || !std::string_view(method).starts_with("core_") ? "" : " at k " + compact(row->k)) +
                          " against exact order";
       if (std::isfinite(row->rmse_forward)) what += ", " + known(row->rmse_forward) + " against the paper's forward image";
       if (std::isfinite(row->p999_exact)) what += "; 99.9 % of the pixels are within " + known(row->p999_exact);

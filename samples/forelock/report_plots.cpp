@@ -218,7 +218,7 @@ std::string pointMark(const Series& series, const StudyRow& row) {
 
 std::string frontText(const StudyFacts& facts, const std::vector<std::pair<const Series*, const StudyRow*>>& front) {
   if (front.empty()) return "";
-  std::string text = "Nothing shown is both faster and closer than ";
+  std::string text = "No point that counts is both faster and closer than ";
   for (size_t i = 0; i < front.size(); ++i) {
     const auto& [series, row] = front[i];
     if (i > 0) text += i + 1 == front.size() ? " and " : ", ";
@@ -236,7 +236,7 @@ std::string frontText(const StudyFacts& facts, const std::vector<std::pair<const
 std::string coreTailText(const StudyFacts& facts, const Setting& setting) {
   const StudyRow *core_tail = facts.baseRow(setting, "core_tail"), *forward = facts.baseRow(setting, "forward");
   if (!core_tail || !forward || !facts.isPlotted(*core_tail) || !facts.isPlotted(*forward)) return "";
-  return "core_tail" + (std::isnan(core_tail->k) ? "" : " at k " + readableNumber(core_tail->k)) + " takes " +
+  return "core_tail" + (std::isnan(core_tail->k) ? "" : " at k " + cellText(*core_tail, *findStudyColumn("k"))) + " takes " +
          readableNumber(1.0 / facts.forwardRatio(setting).value, 2) + " of forward's time at an error of " +
          readableNumber(facts.errorOf(*core_tail)) + "; forward's own is " + readableNumber(facts.errorOf(*forward)) + ". ";
 }

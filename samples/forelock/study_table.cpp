@@ -212,13 +212,13 @@ StudyTable parseStudy(std::string_view csv, const std::string& name) {
                      "; is it from forelock-study, and of this version?");
   }
   if (!records.empty() && records.back().fields.size() != columns.size() && !records.back().whole) {
-    table.warnings.push_back("line " + std::to_string(records.back().line) +
+    table.warnings.push_back("study.csv, line " + std::to_string(records.back().line) +
                              " is torn off and was left out: the study was stopped while it wrote");
     records.pop_back();
   }
   Warnings warnings(table);
   for (CsvRecord& record : records) {
-    const std::string where = "line " + std::to_string(record.line);
+    const std::string where = "study.csv, line " + std::to_string(record.line);
     if (record.fields.size() != columns.size()) {
       warnings.add(where + " has " + std::to_string(record.fields.size()) + " fields instead of " +
                    std::to_string(columns.size()) + " and was left out");

@@ -23,7 +23,7 @@ void expectComplaint(const CommandRun& run, int status, const std::string& part)
 }  // namespace
 
 TEST(CommandUsage, HelpOnEveryLevelShowsExamples) {
-  for (const char* level : {"", "preview ", "plan ", "inspect ", "convert ", "groom "}) {
+  for (const char* level : {"", "preview ", "plan ", "inspect ", "convert ", "groom ", "report "}) {
     const CommandRun run = runCommand(std::string(level) + "--help");
     EXPECT_EQ(run.status, 0) << level;
     EXPECT_NE(run.out.find("Examples:"), std::string::npos) << level;
@@ -50,12 +50,15 @@ TEST(CommandUsage, WrongUsageIsTwo) {
   expectComplaint(runCommand("plan x.tfx --k 12 --k-sort 4"), 2, "k-sort is 4");
   expectComplaint(runCommand("plan x.tfx --head --no-head"), 2, "--no-head");
   expectComplaint(runCommand("preview x.tfx"), 2, "--out");
+  expectComplaint(runCommand("report"), 2, "DIR");
+  expectComplaint(runCommand("report study --error speed"), 2, "rmse_forward");
   expectComplaint(runCommand("preview x.tfx -o x.jpg"), 2, "x.jpg: no picture format");
   expectComplaint(runCommand("plan " + smallRecipe() + " --camera front"), 2, "stored are: side");
 }
 
 TEST(CommandUsage, WhatIsWrongWithAnAssetIsOne) {
   expectComplaint(runCommand("plan nowhere.tfx"), 1, "nowhere.tfx: ");
+  expectComplaint(runCommand("report nowhere"), 1, "nowhere: no such folder");
   expectComplaint(runCommand("plan groom:nowhere"), 1, "groom:nowhere: no such groom");
   expectComplaint(runCommand("plan --scene nowhere.json"), 1, "nowhere.json: cannot be read");
   const std::string scene =

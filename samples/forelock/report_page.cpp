@@ -53,6 +53,7 @@ tr.doubtful td { color: var(--faint); font-style: italic; }
 .big { font-size: 1.05rem; font-weight: 650; white-space: nowrap; }
 summary { cursor: pointer; margin: 0.6rem 0; }
 svg.legend { max-width: 100%; height: auto; display: block; color: var(--ink); margin-top: 0.6rem; }
+@page rows { size: landscape; margin: 8mm; }
 @media print {
   :root { --ink: #000; --faint: #444; --line: #bbb; --paper: #fff; --wash: #f2f2f2; }
   body { font-size: 10pt; }
@@ -61,6 +62,7 @@ svg.legend { max-width: 100%; height: auto; display: block; color: var(--ink); m
   figure, tr { break-inside: avoid; }
   h2, h3 { break-after: avoid; }
   .scroll { overflow: visible; max-height: none; }
+  .rows { page: rows; border: 0; }
   .rows table { font-size: 5pt; }
   .rows th { position: static; }
   .rows th, .rows td { padding: 0.1rem 0.15rem; white-space: normal; }

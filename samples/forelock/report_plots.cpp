@@ -711,7 +711,7 @@ MethodStyle methodStyle(const StudyFacts& facts, const std::string& method) {
       {"forward", {"#d55e00", 7}},   {"core_tail", {"#0072b2", 5}}, {"core_tail_list", {"#56b4e9", 9}}, {"core_only", {"#e69f00", 11}},
       {"all_low", {"#cc79a7", 13}},  {"exact", {"#222222", 7}},     {"hard", {"#009e73", 15}}};
   if (const auto found = known.find(method); found != known.end()) return found->second;
-  static constexpr MethodStyle further[] = {{"#8c564b", 5}, {"#7f3c8d", 9}, {"#80ba5a", 11}, {"#a5aa00", 13}, {"#4b4b8f", 7}, {"#cf1c90", 15}};
+  static const MethodStyle further[] = {{"#8c564b", 5}, {"#7f3c8d", 9}, {"#80ba5a", 11}, {"#a5aa00", 13}, {"#4b4b8f", 7}, {"#cf1c90", 15}};
   size_t index = 0;
   for (const std::string& other : facts.methods) {
     if (other == method) break;

@@ -2,6 +2,7 @@
 #include "reference_vector.h"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 
 namespace forelock::reference {
@@ -17,9 +18,10 @@ double lobe(double angle, double exponent) {
 // The integral over a whole turn by the midpoint rule, which for a periodic function converges with the number of its points.
 double meanLobe(double exponent) {
   constexpr int points = 1 << 14;
-  double sum = 0;
-  for (int i = 0; i < points; ++i) sum += lobe(2 * std::numbers::pi * (i + 0.5) / points, exponent);
-  return sum / points;
+  thread_local std::map<double, double> known;
+  const auto [found, is_new] = known.try_emplace(exponent, 0.0);
+  for (int i = 0; is_new && i < points; ++i) found->second += lobe(2 * std::numbers::pi * (i + 0.5) / points, exponent) / points;
+  return found->second;
 }
 
 std::array<double, 3> shadeLobes(const Material& material, const LobeInput& input, Lobes lobes) {

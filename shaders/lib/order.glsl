@@ -24,21 +24,22 @@ bool keyEqual(Key a, Key b, bool one_hair, bool color) {
   return a.depth == b.depth && a.payload == b.payload && (one_hair || a.slot == b.slot) && (!color || a.color == b.color);
 }
 
-// a and b in order.
-void keySort(inout Key a, inout Key b, bool one_hair, bool color) {
-  bool swap = keyLess(b, a, one_hair, color);
-  Key first = a;
-  a.depth = swap ? b.depth : a.depth;
-  a.payload = swap ? b.payload : a.payload;
-  b.depth = swap ? first.depth : b.depth;
-  b.payload = swap ? first.payload : b.payload;
+// A step of inserting `added` into keys in order, the first of which is visited first: `held` takes what moves on, `added` at first.
+// All comparisons are with the key that is added, so that none waits for another.
+void keyInsert(inout Key here, inout Key held, Key added, bool one_hair, bool color) {
+  bool moves = keyLess(added, here, one_hair, color);
+  Key before = here;
+  here.depth = moves ? held.depth : before.depth;
+  here.payload = moves ? held.payload : before.payload;
+  held.depth = moves ? before.depth : held.depth;
+  held.payload = moves ? before.payload : held.payload;
   if (!one_hair) {
-    a.slot = swap ? b.slot : a.slot;
-    b.slot = swap ? first.slot : b.slot;
+    here.slot = moves ? held.slot : before.slot;
+    held.slot = moves ? before.slot : held.slot;
   }
   if (color) {
-    a.color = swap ? b.color : a.color;
-    b.color = swap ? first.color : b.color;
+    here.color = moves ? held.color : before.color;
+    held.color = moves ? before.color : held.color;
   }
 }
 

@@ -8,23 +8,23 @@
 // leaves free, all bits set, and decodes as zero.
 uint octEncode(vec3 v, int bits) {
   float sum = abs(v.x) + abs(v.y) + abs(v.z);
-  if (!(sum > 0.0) || isinf(sum)) return (1u << 2 * bits) - 1u;  // also NaN
+  bool none = !(sum > 0.0) || isinf(sum);  // also NaN
   vec2 p = v.xy / sum;
   if (v.z < 0.0) p = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
   float steps = float((1 << bits) - 2);
   uvec2 q = uvec2(clamp((p * 0.5 + 0.5) * steps + 0.5, vec2(0.0), vec2(steps)));
-  return q.x | q.y << bits;
+  return none ? (1u << 2 * bits) - 1u : q.x | q.y << bits;
 }
 
 vec3 octDecode(uint code, int bits) {
   float steps = float((1 << bits) - 2);
   uint mask = (1u << bits) - 1u;
-  if ((code & mask) == mask) return vec3(0.0);  // no direction
+  bool none = (code & mask) == mask;
   vec2 p = (2.0 * vec2(float(code & mask), float(code >> bits & mask)) - steps) / steps;  // 0 is exact whatever the division is
   vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
   if (v.z < 0.0) v.xy = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
   float square = dot(v, v);  // >= 1/3; exactly 1 on the axes, which an approximate root would miss
-  return square == 1.0 ? v : v * inversesqrt(square);
+  return v * (none ? 0.0 : square == 1.0 ? 1.0 : inversesqrt(square));
 }
 
 // Alpha in [0,1] to a code; 0: the fragment is dropped.

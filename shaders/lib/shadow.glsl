@@ -3,24 +3,39 @@
 #define FORELOCK_LIB_SHADOW
 #extension GL_EXT_samplerless_texture_functions : require
 
-// (1 - a)^fibres from log2(1 - a): 1 for no fibre in between, also where a = 1 (log2 sent as -FLT_MAX).
-float fibreTransmittance(float fibres, float log2_transmittance) {
-  float n = clamp(fibres, 0.0, 1e6);
-  if (!(n > 0.0)) return 1.0;  // also NaN
-  return exp2(max(n * log2_transmittance, -126.0)) * (n * log2_transmittance < -126.0 ? 0.0 : 1.0);
-}
-
 float shadowBias(vec3 T, vec3 L, float texel) {
   return texel * abs(dot(T, L)) / max(length(cross(T, L)), 0.1);
 }
 
-// `position` in texels from the middle of the map and metre, `range` the metres of a full depth value. The map is the square of
-// `size` texels that begins at texel `offset` of the image.
-float shadowTap(texture2D map, ivec2 offset, ivec2 texel, int size, float depth, float range, float fibres_per_metre, float log2_transmittance) {
-  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(size)))) return 1.0;
-  float front = texelFetch(map, offset + texel, 0).r;
-  if (front >= 1.0) return 1.0;  // no hair towards the light
-  return fibreTransmittance((depth - front * range) * fibres_per_metre, log2_transmittance);
+// What a fragment's taps share.
+struct ShadowTaps {
+  ivec2 texel;    // the first
+  ivec2 offset;   // of the map in the image
+  int size;       // its side (texel)
+  float depth;    // of the fragment, less the bias (metre)
+  float range;    // metres of a full depth value
+  float exponent; // log2 of what a metre of hair lets through: (1 - a)^(metre / spacing)
+  float least;    // of the exponent times metres: a million fibres, 2^-126 at least
+};
+
+// `position` in texels from the middle of the map and metre. The map is the square of `size` texels that begins at texel `offset` of
+// the image. Opaque fibres send log2(1 - a) = -FLT_MAX; all is held finite, because 0 x infinity is NaN.
+ShadowTaps shadowTaps(ivec2 offset, ivec2 first, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance) {
+  return ShadowTaps(first, offset, size, min(position.z - bias, 1e30), range, max(fibres_per_metre * log2_transmittance, -3.4e38),
+                    max(1e6 * max(log2_transmittance, -1e30), -126.0));
+}
+
+// What hair lets through to a fragment that lies `behind` its front (metre).
+float hairTransmittance(float behind, ShadowTaps at) {
+  return behind > 0.0 ? exp2(max(behind * at.exponent, at.least)) : 1.0;  // also NaN
+}
+
+// No branches: a GPU has all reads under way at once. A texel outside the map, or without hair, lets all light through.
+float shadowTap(texture2D map, ShadowTaps at, int i, int j) {
+  ivec2 texel = at.texel + ivec2(i, j);
+  ivec2 held = clamp(texel, ivec2(0), ivec2(at.size - 1));
+  float front = texelFetch(map, at.offset + held, 0).r;
+  return front >= 1.0 || texel != held ? 1.0 : hairTransmittance(at.depth - front * at.range, at);
 }
 
 // `position` from the middle of the map. A far one must not wrap when it becomes an integer.
@@ -35,17 +50,22 @@ float shadowFull(texture2D map, ivec2 offset, vec3 position, int size, float bia
   int side = taps == 25u ? 5 : taps == 9u ? 3 : taps == 4u ? 2 : 1;
   int row = taps == 25u ? 0 : 5;
   ivec2 texel = shadowTexel(taps == 4u ? position.xy - 0.5 : position.xy, size) - (side - 1) / 2;
+  ShadowTaps at = shadowTaps(offset, texel, position, size, bias, range, fibres_per_metre, log2_transmittance);
   float light = 0.0;
   for (int j = 0; j < side; ++j)
-    for (int i = 0; i < side; ++i) {
-      float weight = taps == 1u ? 1.0 : taps == 4u ? 0.25 : weights[row + i] * weights[row + j];
-      light += weight * shadowTap(map, offset, texel + ivec2(i, j), size, position.z - bias, range, fibres_per_metre, log2_transmittance);
-    }
+    for (int i = 0; i < side; ++i)
+      light += (taps == 1u ? 1.0 : taps == 4u ? 0.25 : weights[row + i] * weights[row + j]) * shadowTap(map, at, i, j);
   return light;
 }
 
+// One tap.
 float shadowLow(texture2D map, ivec2 offset, vec3 position, int size, float bias, float range, float fibres_per_metre, float log2_transmittance) {
-  return shadowTap(map, offset, shadowTexel(position.xy, size), size, position.z - bias, range, fibres_per_metre, log2_transmittance);
+  ShadowTaps at = shadowTaps(offset, ivec2(0), position, size, bias, range, fibres_per_metre, log2_transmittance);
+  vec2 place = position.xy + float(size) * 0.5;
+  vec2 held = clamp(place, vec2(0.0), vec2(float(size) - 0.5));
+  float front = texelFetch(map, offset + ivec2(held), 0).r;
+  bool outside = any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(float(size))));
+  return front >= 1.0 || outside ? 1.0 : hairTransmittance(at.depth - front * range, at);
 }
 
 #endif

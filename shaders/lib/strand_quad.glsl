@@ -109,7 +109,8 @@ float areaShare(FlatSegment segment, float h, float slope, vec2 on, vec2 p) {
 
 // Whether a pixel centre lies between the lines of both ends.
 bool betweenLines(vec2 center, vec2 a, vec2 b, vec2 line_a, vec2 line_b) {
-  return dot(center - a, line_a) >= 0.0 && (dot(center - b, line_b) < 0.0 || line_b == vec2(0.0));
+  bool after_a = dot(center - a, line_a) >= 0.0, before_b = dot(center - b, line_b) < 0.0, no_line = line_b == vec2(0.0);
+  return after_a && (before_b || no_line);
 }
 
 #endif

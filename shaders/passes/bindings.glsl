@@ -14,7 +14,8 @@ layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { FrameConstant
 // Heads; for FLK_METHOD_HARD depths, payloads and (with colours) colours of the nearest fragments, plane after plane.
 layout(set = 0, binding = 1, scalar) buffer HeadBuffer { uint heads[]; };
 layout(set = 0, binding = 2, scalar) buffer CounterBuffer { uint counters[FLK_COUNTER_WORDS]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer NodePool { uint words[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer NodePool { uvec2 at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer NodeWords { uint at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AggregatePool { uint words[]; };
 #endif
 #ifdef FLK_BIND_DEPTH

@@ -8,4 +8,21 @@
 #include "capture_input.glsl"
 #include "capture_quad.glsl"
 
-void main() { captureQuad(shapeHere(), uvec2(gl_FragCoord.xy), !gl_HelperInvocation); }
+void main() {
+  SegmentShape shape = shapeHere();
+  FibreColors colors = colorsHere();
+  QuadFacts facts = factsOf(shape);
+  uvec2 pixel = uvec2(gl_FragCoord.xy);
+  if (kHard) {
+    if (!gl_HelperInvocation) captureHard(shape, facts, colors, pixel, gl_FragCoord.xy);
+    return;
+  }
+  Captured kept;
+  if (!captureFragment(shape, facts, colors, pixel, gl_FragCoord.xy, !gl_HelperInvocation, kept)) return;
+  uint index = countFragment();
+  if (kStore == FLK_STORE_COUNT) return;
+  storeCaptured(kept, index);
+#ifdef FLK_CAPTURE_FORWARD
+  addWork();
+#endif
+}

@@ -18,9 +18,10 @@ layout(location = 9) flat out vec3 out_color_b;
 
 void main() {
   SegmentShape shape;
+  FibreColors colors;
   QuadEnd end_a, end_b;
   gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);  // four equal corners: nothing is drawn
-  if (!segmentShape(uint(gl_VertexIndex) >> 2, shape, end_a, end_b)) return;
+  if (!segmentShape(uint(gl_VertexIndex) >> 2, shape, colors, end_a, end_b)) return;
   float side = (gl_VertexIndex & 1) == 0 ? -1.0 : 1.0;
   bool at_b = (gl_VertexIndex & 2) != 0;
   vec2 corner = (at_b ? end_b.middle : end_a.middle) + side * (at_b ? end_b.arm : end_a.arm);
@@ -33,6 +34,6 @@ void main() {
   out_tangent_b = shape.tangent_b;
   out_direction = shape.direction;
   out_joint = shape.joint;
-  out_color_a = kColor ? shape.color_a : vec3(0.0);
-  out_color_b = kColor ? shape.color_b : vec3(0.0);
+  out_color_a = kColor ? colors.a : vec3(0.0);
+  out_color_b = kColor ? colors.b : vec3(0.0);
 }

@@ -14,8 +14,9 @@ layout(location = 8) flat in vec3 in_color_a;
 layout(location = 9) flat in vec3 in_color_b;
 
 SegmentShape shapeHere() {
-  return SegmentShape(in_axis, in_lines, in_extent, in_depth, in_tangent_a, in_tangent_b, in_direction, in_joint, in_color_a,
-                      in_color_b);
+  return SegmentShape(in_axis, in_lines, in_extent, in_depth, in_tangent_a, in_tangent_b, in_direction, in_joint);
 }
+
+FibreColors colorsHere() { return FibreColors(in_color_a, in_color_b); }
 
 #endif

@@ -10,9 +10,9 @@
 #include "../lib/shadow.glsl"
 #include "light.glsl"
 #endif
-#include "capture_store.glsl"
 
 layout(constant_id = FLK_SPEC_PAYLOAD) const int kPayload = 0;
+#include "capture_store.glsl"
 layout(constant_id = FLK_SPEC_DISPLAY) const int kDisplay = 0;
 layout(constant_id = FLK_SPEC_MODIFIERS) const uint kModifiers = 0u;
 
@@ -25,47 +25,94 @@ float modifiersAt(vec2 pixel, float depth) {
   return factor;
 }
 
-// pixel: of the target, inside the hair's rectangle. live: not a helper of its neighbours.
-void captureQuad(SegmentShape shape, uvec2 pixel, bool live) {
-  vec2 at = vec2(pixel) + 0.5;
-  vec2 center = at - frame.size * 0.5;
-  StrandFragment f = strandFragment(center, shape.axis, shape.lines, shape.extent, shape.depth, shape.tangent_a.xyz,
-                                    shape.tangent_b, shape.direction, shape.joint, frame.orthographic);
-  float modifiers = kModifiers == 0u ? 1.0 : modifiersAt(at, f.depth);
-  if (kStore == FLK_STORE_HARD_DEPTH || kStore == FLK_STORE_HARD_PAYLOAD) {
-    bool inside = insideHard(center, shape.axis, shape.lines, shape.extent, shape.direction, shape.tangent_b.w);
-    if (!live || !inside || modifiers < 0.5 || behindHostDepth(pixel, f.depth)) return;
-    vec3 fibre = kColor ? fibreColor(shape, f.along, f.fraction) : vec3(0.0);
-    storeHard(pixel, f.depth, packHard(f.tangent, hair_slot), kColor ? packSharedExponent(fibre) : 0u);
-    return;
-  }
+#if defined(FLK_CAPTURE_FORWARD) || defined(FLK_CAPTURE_DISPLAY)
+#define FLK_CAPTURE_COLORS
+#endif
 
+// A fragment that is kept, on its way to the list.
+struct Captured {
+  uvec2 pixel;     // of the target
+  float depth;
+  float alpha;     // before it is coded
+#ifdef FLK_CAPTURE_COLORS
+  vec3 tangent;    // FLK_CAPTURE_FORWARD
+  vec3 color;      // FLK_CAPTURE_FORWARD: of the fibre, with kColor; else what is shown
+#else
+  uint payload;
+  uint color;      // of the fibre, with kColor
+#endif
+};
+
+uint alphaCode(float alpha) {
+#if defined(FLK_CAPTURE_FORWARD)
+  return alphaCodeColor(alpha, kPayload);
+#elif defined(FLK_CAPTURE_DISPLAY)
+  return alphaCodeColor(alpha, FLK_CODING_DEFAULT);
+#else
+  return alphaCodeTangent(alpha, kPayload);
+#endif
+}
+
+QuadFacts factsOf(SegmentShape shape) { return quadFacts(shape.direction, shape.tangent_b.w); }
+
+StrandFragment fragmentAt(SegmentShape shape, QuadFacts facts, vec2 center) {
+  return strandFragment(center, facts, shape.axis, shape.lines, shape.extent, shape.depth, shape.tangent_a.xyz, shape.tangent_b, shape.direction,
+                        shape.joint, frame.orthographic);
+}
+
+// pixel: of the target; at: its centre. live: inside the hair's rectangle, and wanted. False: nothing is kept.
+bool captureFragment(SegmentShape shape, QuadFacts facts, FibreColors colors, uvec2 pixel, vec2 at, bool live, out Captured kept) {
+  StrandFragment f = fragmentAt(shape, facts, at - frame.size * 0.5);
   float opacity = mix(frame.hairs[hair_slot].opacity_root, frame.hairs[hair_slot].opacity_tip, f.fraction);
-  float alpha = clamp(f.coverage * opacity * modifiers, 0.0, 1.0);
+  if (kModifiers != 0u) opacity *= modifiersAt(at, f.depth);
+  float alpha = clamp(f.coverage * opacity, 0.0, 1.0);
+  uint code = alphaCode(alpha);
+  kept.pixel = pixel;
+  kept.depth = f.depth;
+  kept.alpha = alpha;
 #if defined(FLK_CAPTURE_FORWARD)
-  uint code = alphaCodeColor(alpha, kPayload);
+  kept.tangent = f.tangent;
+  kept.color = kColor ? fibreColor(colors, f.along, f.fraction) : vec3(0.0);
 #elif defined(FLK_CAPTURE_DISPLAY)
-  uint code = alphaCodeColor(alpha, FLK_CODING_DEFAULT);
+  kept.tangent = vec3(0.0);
+  kept.color = vec3(1.0);
+  if (kDisplay == FLK_SHOW_STRAND) kept.color = strandColor(uint(shape.tangent_a.w));
+  else if (kDisplay == FLK_SHOW_ROOT_TIP) kept.color = rootTipColor(f.fraction);
+  else if (kDisplay == FLK_SHOW_WIDTH) kept.color = widthColor(f.width_px);
+  else if (kDisplay == FLK_SHOW_DEPTH) kept.color = depthColor(f.depth, frame.depth_range);
 #else
-  uint code = alphaCodeTangent(alpha, kPayload);
+  kept.payload = packTangent(f.tangent, code, kPayload);
+  kept.color = kColor ? packSharedExponent(fibreColor(colors, f.along, f.fraction)) : 0u;
 #endif
-  if (!live || code == 0u || behindHostDepth(pixel, f.depth)) return;
-  vec3 fibre = kColor ? fibreColor(shape, f.along, f.fraction) : frame.hairs[hair_slot].color;
+  bool keeps = live && code != 0u;
+#ifdef FLK_BIND_DEPTH
+  if (keeps) keeps = !behindHostDepth(pixel, f.depth);
+#endif
+  return keeps;
+}
+
+// index: a number of its own for every fragment.
+void storeCaptured(Captured c, uint index) {
 #if defined(FLK_CAPTURE_FORWARD)
-  if (kStore == FLK_STORE_COUNT) { countFragment(); return; }
-  vec3 color = radianceFull(frame.hairs[hair_slot], fibre, frameLight(pixel), f.tangent, pixelRay(at), f.depth, pixel);
-  addWork();
-  storeFragment(pixel, f.depth, f.tangent, packColor(color, code, frame.color_range, kPayload), 0u, alpha, color);
+  vec3 fibre = kColor ? c.color : frame.hairs[hair_slot].color;
+  vec3 color = radianceFull(frame.hairs[hair_slot], fibre, frameLight(c.pixel), c.tangent, pixelRay(vec2(c.pixel) + 0.5), c.depth, c.pixel);
+  storeFragment(c.pixel, c.depth, index, packColor(color, alphaCode(c.alpha), frame.color_range, kPayload), 0u, c.alpha, color);
 #elif defined(FLK_CAPTURE_DISPLAY)
-  vec3 color = vec3(1.0);
-  if (kDisplay == FLK_SHOW_STRAND) color = strandColor(uint(shape.tangent_a.w));
-  else if (kDisplay == FLK_SHOW_ROOT_TIP) color = rootTipColor(f.fraction);
-  else if (kDisplay == FLK_SHOW_WIDTH) color = widthColor(f.width_px);
-  else if (kDisplay == FLK_SHOW_DEPTH) color = depthColor(f.depth, frame.depth_range);
-  storeFragment(pixel, f.depth, f.tangent, packColor(color, code, frame.color_range, FLK_CODING_DEFAULT), 0u, alpha, color);
+  storeFragment(c.pixel, c.depth, index, packColor(c.color, alphaCode(c.alpha), frame.color_range, FLK_CODING_DEFAULT), 0u, c.alpha, c.color);
 #else
-  storeFragment(pixel, f.depth, f.tangent, packTangent(f.tangent, code, kPayload), kColor ? packSharedExponent(fibre) : 0u, alpha, vec3(0.0));
+  storeFragment(c.pixel, c.depth, index, c.payload, c.color, c.alpha, vec3(0.0));
 #endif
+}
+
+const bool kHard = kStore == FLK_STORE_HARD_DEPTH || kStore == FLK_STORE_HARD_PAYLOAD;
+
+void captureHard(SegmentShape shape, QuadFacts facts, FibreColors colors, uvec2 pixel, vec2 at) {
+  vec2 center = at - frame.size * 0.5;
+  StrandFragment f = fragmentAt(shape, facts, center);
+  if (!insideHard(center, shape.axis, shape.lines, shape.extent, shape.direction, shape.tangent_b.w) || behindHostDepth(pixel, f.depth)) return;
+  if (kModifiers != 0u && modifiersAt(at, f.depth) < 0.5) return;
+  vec3 fibre = kColor ? fibreColor(colors, f.along, f.fraction) : vec3(0.0);
+  storeHard(pixel, f.depth, packHard(f.tangent, hair_slot), kColor ? packSharedExponent(fibre) : 0u);
 }
 
 #endif

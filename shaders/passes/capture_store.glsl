@@ -15,15 +15,19 @@ bool behindHostDepth(uvec2 pixel, float depth) {
 #endif
 }
 
+// The first of `count` numbers, which no other fragment has.
+uint countFragments(uint count) {
+  uint base = atomicAdd(counters[0], count);
+  // Held far below 2^32: a count that wrapped would hand out nodes twice.
+  if (base >= FLK_COUNT_SATURATED) atomicExchange(counters[0], FLK_COUNT_SATURATED);
+  return base;
+}
+
 // A number of its own for every fragment: one atomic for all lanes that are here together.
 uint countFragment() {
   uvec4 here = subgroupBallot(true);
   uint base = 0u;
-  if (subgroupElect()) {
-    base = atomicAdd(counters[0], subgroupBallotBitCount(here));
-    // Held far below 2^32: a count that wrapped would hand out nodes twice.
-    if (base >= FLK_COUNT_SATURATED) atomicExchange(counters[0], FLK_COUNT_SATURATED);
-  }
+  if (subgroupElect()) base = countFragments(subgroupBallotBitCount(here));
   return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(here);
 }
 
@@ -33,7 +37,7 @@ uint pixelIndex(uvec2 pixel) {
 }
 
 // docs/methods.md section 6, "Overflow". What is held is never wrapped: an optical depth beyond 32768 lets nothing through.
-void aggregateFragment(uint index, float depth, vec3 tangent, float alpha, vec3 color) {
+void aggregateFragment(uint index, float depth, uint payload, float alpha, vec3 color) {
   AggregatePool pool = AggregatePool(frame.aggregates);
   uint base = index * FLK_AGGREGATE_WORDS;
   float tau = min(-log2(max(1.0 - alpha, 1.0 / 8192.0)), FLK_TAU_MOST);
@@ -44,6 +48,9 @@ void aggregateFragment(uint index, float depth, vec3 tangent, float alpha, vec3 
   atomicAdd(pool.words[base + 2u], weighted.y);
   atomicAdd(pool.words[base + 3u], weighted.z);
 #else
+  vec3 tangent;
+  float coded;
+  unpackTangent(payload, kPayload, tangent, coded);
   float within = (depth - frame.depth_range.x) / max(frame.depth_range.y - frame.depth_range.x, 1e-30);
   uint key = uint(clamp(within, 0.0, 1.0) * FLK_NEAREST_DEPTH_STEPS) << FLK_NEAREST_DEPTH_SHIFT |
              octEncode(tangent, FLK_NEAREST_TANGENT_BITS) << FLK_NEAREST_TANGENT_SHIFT | hair_slot;
@@ -61,23 +68,17 @@ const bool kColorWord = false;
 const bool kColorWord = kColor;
 #endif
 
-// One fragment into the list of its pixel (Yang et al. 2010). The head changes only when the node has been stored: full lists
-// keep what they hold.
-void storeFragment(uvec2 pixel, float depth, vec3 tangent, uint payload, uint fibre_color, float alpha, vec3 color) {
-  uint index = countFragment();
-  if (kStore == FLK_STORE_COUNT) return;
+// One fragment into the list of its pixel (Yang et al. 2010). The head changes only where there is a node to name: full lists keep
+// what they hold.
+void storeFragment(uvec2 pixel, float depth, uint index, uint payload, uint fibre_color, float alpha, vec3 color) {
   uint at = pixelIndex(pixel);
   if (index >= frame.node_capacity) {
-    if (kAggregate) aggregateFragment(at, depth, tangent, alpha, color);
+    if (kAggregate) aggregateFragment(at, depth, payload, alpha, color);
     return;
   }
-  uint previous = atomicExchange(heads[at], hair_slot << FLK_LINK_SLOT_SHIFT | index);
-  NodePool nodes = NodePool(frame.node_pool);
-  uint base = index * (kColorWord ? FLK_NODE_WORDS + 1u : FLK_NODE_WORDS);
-  nodes.words[base] = floatBitsToUint(depth);
-  nodes.words[base + 1u] = payload;
-  nodes.words[base + 2u] = previous;
-  if (kColorWord) nodes.words[base + 3u] = fibre_color;
+  NodePool(frame.node_keys).at[index] = uvec2(floatBitsToUint(depth), payload);
+  if (kColorWord) NodeWords(frame.node_colors).at[index] = fibre_color;
+  NodeWords(frame.node_links).at[index] = atomicExchange(heads[at], hair_slot << FLK_LINK_SLOT_SHIFT | index);
 }
 
 // FLK_METHOD_HARD, in two passes over the strands: the least depth of a pixel, then the least key at that depth. No order of

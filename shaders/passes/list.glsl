@@ -8,15 +8,13 @@ layout(constant_id = FLK_SPEC_PAYLOAD) const int kPayload = 0;
 layout(constant_id = FLK_SPEC_ONE_HAIR) const bool kOneHair = false;
 layout(constant_id = FLK_SPEC_AGGREGATE) const bool kAggregate = false;
 layout(constant_id = FLK_SPEC_COLOR) const bool kColor = false;
-const uint kNodeWords = kColor ? FLK_NODE_WORDS + 1u : FLK_NODE_WORDS;
 
 // The fragment that a link names; link becomes the next.
 Key readNode(inout uint link) {
-  NodePool nodes = NodePool(frame.node_pool);
-  uint base = (link & FLK_LINK_INDEX_MASK) * kNodeWords;
-  Key key = Key(nodes.words[base], nodes.words[base + 1u], kOneHair ? 0u : link >> FLK_LINK_SLOT_SHIFT, kColor ? nodes.words[base + 3u] : 0u);
-  link = nodes.words[base + 2u];
-  return key;
+  uint index = link & FLK_LINK_INDEX_MASK, slot = link >> FLK_LINK_SLOT_SHIFT;
+  link = NodeWords(frame.node_links).at[index];
+  uvec2 held = NodePool(frame.node_keys).at[index];
+  return Key(held.x, held.y, kOneHair ? 0u : slot, kColor ? NodeWords(frame.node_colors).at[index] : 0u);
 }
 
 // What the lists had no room for, as one fragment.

@@ -34,6 +34,28 @@ vec3 fragmentColor(Key key, ShadeSource source, bool full, out float alpha) {
 #endif
 }
 
+// What is left of the core's keys and this one in `key`: the farthest, or none.
+void insertKey(inout Key core[kSort], inout Key key) {
+  if (!keyLess(key, core[kSort - 1u], kOneHair, kColor)) return;
+  Key added = key;
+  for (uint i = 0; i < kSort; ++i) keyInsert(core[i], key, added, kOneHair, kColor);  // constant indices stay in registers
+}
+
+// A key that may be none is shaded in any case, as `other` then, and given no opacity: without a branch the reads of both are under way
+// at once.
+void tailKey(inout Tail tail, inout Key front, Key key, Key other, ShadeSource source) {
+  bool there = key.depth != kDepthNone;
+  if (kCountWork && !there) return;
+  Key read = Key(there ? key.depth : other.depth, there ? key.payload : other.payload, there ? key.slot : other.slot,
+                 there ? key.color : other.color);
+  vec3 tangent, color = vec3(0.0);
+  float alpha;
+  if (kTail == FLK_TAIL_KIND_NONE || kTail == FLK_TAIL_KIND_ONCE) unpackTangent(read.payload, kPayload, tangent, alpha);
+  else color = fragmentColor(read, source, false, alpha);
+  addToTail(tail, there ? alpha : 0.0, color);
+  if (kTail == FLK_TAIL_KIND_ONCE && keyLess(key, front, kOneHair, kColor)) front = key;
+}
+
 void main() {
   uvec2 pixel;
   if (!tilePixel(frame.rect.zw, pixel)) return;
@@ -47,21 +69,26 @@ void main() {
   for (uint i = 0; i < kSort; ++i) core[i] = keyNone();
   Tail tail = emptyTail();
   Key tail_front = keyNone();
-  while (link != FLK_LINK_END) {
-    Key key = readNode(link);
-    if (keyLess(key, core[kSort - 1u], kOneHair, kColor))
-      for (uint i = 0; i < kSort; ++i) keySort(core[i], key, kOneHair, kColor);  // constant indices stay in registers
-    if (key.depth == kDepthNone) continue;
-    vec3 tangent, color = vec3(0.0);
-    float alpha;
-    if (kTail == FLK_TAIL_KIND_NONE || kTail == FLK_TAIL_KIND_ONCE) unpackTangent(key.payload, kPayload, tangent, alpha);
-    else color = fragmentColor(key, source, false, alpha);
-    addToTail(tail, alpha, color);
-    if (kTail == FLK_TAIL_KIND_ONCE && keyLess(key, tail_front, kOneHair, kColor)) tail_front = key;
+  // Two at a time, and the next two are on their way meanwhile: what a long list costs is waiting.
+  Key next_a = keyNone(), next_b = keyNone();
+  if (link != FLK_LINK_END) next_a = readNode(link);
+  if (link != FLK_LINK_END) next_b = readNode(link);
+  while (next_a.depth != kDepthNone) {
+    Key a = next_a, b = next_b;
+    next_a = next_b = keyNone();
+    bool more = link != FLK_LINK_END;
+    if (more) next_a = readNode(link);
+    insertKey(core, a);
+    insertKey(core, b);
+    if (a.depth != kDepthNone || b.depth != kDepthNone) {
+      tailKey(tail, tail_front, a, b, source);
+      tailKey(tail, tail_front, b, a, source);
+    }
+    if (more && link != FLK_LINK_END) next_b = readNode(link);
   }
   if (kTail == FLK_TAIL_KIND_ONCE && tail_front.depth != kDepthNone) {
     float alpha;
-    addColor(tail, tail.tau, fragmentColor(tail_front, source, false, alpha));
+    addColorWide(tail, tail.tau, fragmentColor(tail_front, source, false, alpha));
   }
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;

@@ -2,6 +2,7 @@
 // the next nearest: no scratch memory, any length, the same sum whatever order the list is in.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define FLK_BIND_LISTS
 #define FLK_BIND_TARGET
 #include "bindings.glsl"
@@ -36,21 +37,28 @@ void main() {
     Key batch[kBatch];
     for (uint i = 0; i < kBatch; ++i) batch[i] = keyNone();
     uint farther = 0u, equal = 0u;
-    for (uint link = head; link != FLK_LINK_END;) {
-      Key key = readNode(link);
+    uint link = head;
+    Key ahead = readNode(link);
+    for (bool left = true; left;) {
+      Key key = ahead;
+      left = link != FLK_LINK_END;
+      if (left) ahead = readNode(link);  // on its way while this one is sorted
       if (keyEqual(key, last, kOneHair, kColor)) ++equal;
       if (!keyLess(last, key, kOneHair, kColor)) continue;
       ++farther;
       if (!keyLess(key, batch[kBatch - 1u], kOneHair, kColor)) continue;
-      for (uint i = 0; i < kBatch; ++i) keySort(batch[i], key, kOneHair, kColor);
+      Key added = key;
+      for (uint i = 0; i < kBatch; ++i) keyInsert(batch[i], key, added, kOneHair, kColor);
     }
     // Fragments equal to the last of the batch before may have fallen out of it: they come first now.
     uint again = equal - min(last_blended, equal);
     uint count = again + min(farther, kBatch);
-    for (uint i = 0; i < count; ++i) {
+    [[dont_unroll]] for (uint i = 0; i < count; ++i) {
       Key key = last;
       if (i >= again) {
-        key = batch[i - again];
+        // The nearest that is left moves to the front: an index that is not constant would take the array out of registers.
+        key = batch[0];
+        for (uint j = 1u; j < kBatch; ++j) batch[j - 1u] = batch[j];
         last_blended = keyEqual(key, last, kOneHair, kColor) ? last_blended + 1u : 1u;
         last = key;
       } else {

@@ -14,12 +14,16 @@ struct SegmentShape {
   vec4 axis;       // a.xy, b.xy (pixel)
   vec4 lines;      // normals of the lines that end the quad at a, at b
   vec4 extent;     // half widths, distances to the strand's root and tip (pixel)
-  vec4 depth;      // depths (metre), fractions
+  vec4 depth;      // depths (metre; perspective: their inverses), fractions
   vec4 tangent_a;  // tangent at a, strand hash
   vec4 tangent_b;  // tangent at b, length (pixel)
   vec2 direction;  // unit, a to b
   vec3 joint;      // slopes of those lines, share of the opacity
-  vec3 color_a, color_b;  // vertex colours, with kColor
+};
+
+// Vertex colours of its ends, with kColor.
+struct FibreColors {
+  vec3 a, b;
 };
 
 vec3 viewPosition(uint vertex) { return frame.hairs[hair_slot].view_from_hair * vec4(positionOf(vertex), 1.0); }
@@ -50,13 +54,13 @@ vec3 vertexColor(uint vertex) {
 }
 
 // Of the fibre where the strand's arc length has the share `fraction` behind it, along: the segment.
-vec3 fibreColor(SegmentShape shape, float along, float fraction) {
+vec3 fibreColor(FibreColors ends, float along, float fraction) {
   vec3 base = mix(frame.hairs[hair_slot].color, frame.hairs[hair_slot].tip_color, frame.hairs[hair_slot].tip_blend * fraction);
-  return base * mix(shape.color_a, shape.color_b, along);
+  return base * mix(ends.a, ends.b, along);
 }
 
 // False: it makes no quad.
-bool segmentShape(uint index, out SegmentShape shape, out QuadEnd end_a, out QuadEnd end_b) {
+bool segmentShape(uint index, out SegmentShape shape, out FibreColors colors, out QuadEnd end_a, out QuadEnd end_b) {
   Segment source = readSegment(index);
   uint ia = source.vertex;
   vec3 a = viewPosition(ia), b = viewPosition(ia + 1u);
@@ -66,7 +70,7 @@ bool segmentShape(uint index, out SegmentShape shape, out QuadEnd end_a, out Qua
   float radius_max = frame.hairs[hair_slot].radius_max;
   vec2 at_a = vec2(attributeRadius(wa, radius_max), attributeFraction(wa));
   vec2 at_b = vec2(attributeRadius(wb, radius_max), attributeFraction(wb));
-  if (kColor) shape.color_a = vertexColor(ia), shape.color_b = vertexColor(ia + 1u);
+  if (kColor) colors.a = vertexColor(ia), colors.b = vertexColor(ia + 1u);
 
   vec3 own = unitOrZero(d);
   vec3 tangent_a = vertexTangent(unitOrZero(d_before), own, own);
@@ -81,9 +85,9 @@ bool segmentShape(uint index, out SegmentShape shape, out QuadEnd end_a, out Qua
     d *= cut_a ? 1.0 - u : u;
     vec2 cut = mix(at_a, at_b, u);
     vec3 tangent = mix(tangent_a, tangent_b, u);
-    vec3 color = kColor ? mix(shape.color_a, shape.color_b, u) : vec3(0.0);
-    if (cut_a) { a = p; at_a = cut; tangent_a = tangent; if (kColor) shape.color_a = color; }
-    else { b = p; at_b = cut; tangent_b = tangent; if (kColor) shape.color_b = color; }
+    vec3 color = kColor ? mix(colors.a, colors.b, u) : vec3(0.0);
+    if (cut_a) { a = p; at_a = cut; tangent_a = tangent; if (kColor) colors.a = color; }
+    else { b = p; at_b = cut; tangent_b = tangent; if (kColor) colors.b = color; }
   }
 
   FlatSegment segment = toFlat(a, b, d);
@@ -116,7 +120,8 @@ bool segmentShape(uint index, out SegmentShape shape, out QuadEnd end_a, out Qua
   // from a point counts as one step long.
   float pixels_per_fraction = segment.l / max(at_b.y - at_a.y, 1.0 / FLK_FRACTION_STEPS);
   shape.extent = vec4(ha, hb, at_a.y * pixels_per_fraction, (1.0 - at_b.y) * pixels_per_fraction);
-  shape.depth = vec4(depthOf(a), depthOf(b), at_a.y, at_b.y);
+  vec2 depths = vec2(depthOf(a), depthOf(b));
+  shape.depth = vec4(frame.orthographic > 0.5 ? depths : 1.0 / depths, at_a.y, at_b.y);
   shape.tangent_a = vec4(tangent_a, float(attributeHash(wa)));
   shape.tangent_b = vec4(tangent_b, segment.l);
   shape.direction = segment.t;

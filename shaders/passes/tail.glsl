@@ -3,7 +3,7 @@
 #define FORELOCK_PASSES_TAIL
 
 layout(constant_id = FLK_SPEC_TAIL) const int kTail = FLK_TAIL_KIND_LIST;
-const float kColorSteps = 16777215.0;  // all that fp32 tells apart
+const float kColorSteps = 256.0;  // of colour, for each step of tau
 
 // In list order: color over what came before. As a mean: integer sums, which no order changes.
 struct Tail {
@@ -21,18 +21,22 @@ uint tauSteps(float alpha) { return uint(min(-log2(max(1.0 - alpha, 1.0 / 8192.0
 // Saturates: 65536 is beyond what any picture shows.
 void addOpacity(inout Tail tail, uint tau) { tail.tau = tail.tau + tau < tail.tau ? 0xFFFFFFFFu : tail.tau + tau; }
 
+// A fragment's sum fits a word: tau has at most 20 bits, colour 8 more than its step there.
 void addColor(inout Tail tail, uint tau, vec3 color) {
   if (kTail == FLK_TAIL_KIND_NONE) return;
-  uvec3 steps = uvec3(clamp(color / frame.tail_range, 0.0, 1.0) * kColorSteps + 0.5);
-  uvec3 product_high, product_low, carry;
-  umulExtended(steps, uvec3(tau), product_high, product_low);
-  tail.low = uaddCarry(tail.low, product_low, carry);
-  tail.high += product_high + carry;
+  uvec3 product = uvec3(clamp(color / frame.tail_range, 0.0, 1.0) * (float(tau) * kColorSteps) + 0.5);
+  uvec3 carry;
+  tail.low = uaddCarry(tail.low, product, carry);
+  tail.high += carry;
 }
 
-void addToMean(inout Tail tail, uint tau, vec3 color) {
-  addOpacity(tail, tau);
-  addColor(tail, tau, color);
+// Of many fragments together, to the 24 bits of a float.
+void addColorWide(inout Tail tail, uint tau, vec3 color) {
+  if (kTail == FLK_TAIL_KIND_NONE) return;
+  vec3 product = clamp(color / frame.tail_range, 0.0, 1.0) * (float(tau) * kColorSteps);
+  uvec3 high = uvec3(product * (1.0 / 4294967296.0)), carry;
+  tail.low = uaddCarry(tail.low, uvec3(product - vec3(high) * 4294967296.0), carry);
+  tail.high += high + carry;
 }
 
 // color: not read where the tail has none of its own yet.
@@ -42,8 +46,8 @@ void addToTail(inout Tail tail, float alpha, vec3 color) {
     tail.transmittance *= 1.0 - alpha;
   } else {
     uint tau = tauSteps(alpha);
-    if (kTail == FLK_TAIL_KIND_MEAN) addToMean(tail, tau, color);
-    else addOpacity(tail, tau);
+    addOpacity(tail, tau);
+    if (kTail == FLK_TAIL_KIND_MEAN) addColor(tail, tau, color);
     tail.opaque = tail.opaque || alpha >= 1.0;
   }
 }
@@ -55,7 +59,9 @@ void addAggregate(inout Tail tail, float tau, vec3 color) {
     tail.color += tail.transmittance * (1.0 - through) * color;
     tail.transmittance *= through;
   } else {
-    addToMean(tail, uint(min(tau, 16000.0) * FLK_TAU_STEPS + 0.5), color);
+    uint steps = uint(min(tau, 16000.0) * FLK_TAU_STEPS + 0.5);
+    addOpacity(tail, steps);
+    addColorWide(tail, steps, color);
   }
 }
 

@@ -47,7 +47,9 @@ struct FrameConstants {
   vec2 size;            // pixels of the target
   vec2 pixels_per_unit; // |P00| W / 2, |P11| H / 2
   uvec4 rect;           // x, y, width, height in pixels: where heads exist
-  uvec2 node_pool;      // device address: a storage buffer binding may be limited to 128 MiB
+  uvec2 node_keys;      // device addresses (a storage buffer binding may be limited to 128 MiB): depth and payload of every node,
+  uvec2 node_links;     // what follows it,
+  uvec2 node_colors;    // and its fibre's colour
   uvec2 aggregates;     // device address of FLK_AGGREGATE_WORDS a pixel of the rectangle
   uint node_capacity;
   float color_range;    // of 8-bit colours: the radiance that codes as 1
@@ -68,7 +70,7 @@ struct FrameConstants {
 #ifdef __cplusplus
 static_assert(sizeof(HairConstants) == 172);
 static_assert(sizeof(OpacityModifier) == 24);
-static_assert(sizeof(FrameConstants) == 320 + FLK_MAX_HAIRS * sizeof(HairConstants));
+static_assert(sizeof(FrameConstants) == 336 + FLK_MAX_HAIRS * sizeof(HairConstants));
 }  // namespace forelock::gpu
 #endif
 #endif

@@ -1,9 +1,9 @@
-// Fragment lists: one head a pixel of the hair's rectangle, nodes of three or four words in one pool.
+// Fragment lists: one head a pixel of the hair's rectangle, nodes in one pool. All keys (depth, payload) come first, then all links,
+// then all colours where the frame has them: two aligned reads a node, where three words together would take three.
 #ifndef FORELOCK_SHARED_NODE_H
 #define FORELOCK_SHARED_NODE_H
 
 // A link names a node and the hair it belongs to: hair slot << 26 | node index.
-#define FLK_NODE_WORDS 3u  // depth, payload, link; 4 with the fibre's colour
 #define FLK_LINK_SLOT_SHIFT 26u
 #define FLK_LINK_INDEX_MASK 0x03FFFFFFu
 #define FLK_LINK_END 0xFFFFFFFFu

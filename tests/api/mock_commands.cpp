@@ -182,17 +182,6 @@ VKAPI_ATTR void VKAPI_CALL CmdCopyBuffer(VkCommandBuffer cmd, VkBuffer from, VkB
   }
 }
 
-VKAPI_ATTR void VKAPI_CALL CmdClearColorImage(VkCommandBuffer cmd, VkImage image, VkImageLayout layout, const VkClearColorValue*,
-                                              uint32_t count, const VkImageSubresourceRange* ranges) {
-  Driver& driver = Driver::current();
-  Command& command = recordWith(cmd, "vkCmdClearColorImage", image, Kind::Image, false);
-  command.numbers = {count};
-  if (command.objects.empty()) return;
-  if (!(command.objects[0]->usage & VK_IMAGE_USAGE_TRANSFER_DST_BIT) || layout != VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL || count == 0 ||
-      ranges[0].aspectMask != VK_IMAGE_ASPECT_COLOR_BIT)
-    driver.breach("vkCmdClearColorImage: wrong usage, layout or range");
-}
-
 VKAPI_ATTR void VKAPI_CALL CmdFillBuffer(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
                                          uint32_t value) {
   Driver& driver = Driver::current();
@@ -251,7 +240,7 @@ const FunctionTable& commandFunctions() {
   static const FunctionTable table = {
       MOCK(CmdPipelineBarrier2), MOCK(CmdBindPipeline), MOCK(CmdBindDescriptorSets), MOCK(CmdPushConstants),
       MOCK(CmdDispatch), MOCK(CmdDispatchIndirect), MOCK(CmdDraw), MOCK(CmdDrawIndexed), MOCK(CmdBindIndexBuffer),
-      MOCK(CmdSetViewport), MOCK(CmdSetScissor), MOCK(CmdBeginRendering), MOCK(CmdEndRendering), MOCK(CmdCopyBuffer), MOCK(CmdClearColorImage),
+      MOCK(CmdSetViewport), MOCK(CmdSetScissor), MOCK(CmdBeginRendering), MOCK(CmdEndRendering), MOCK(CmdCopyBuffer),
       MOCK(CmdFillBuffer), MOCK(CmdUpdateBuffer), MOCK(CmdResetQueryPool), MOCK(CmdWriteTimestamp2)};
 #undef MOCK
   return table;

@@ -81,9 +81,8 @@ TEST_F(RecordingFeatures, everythingAtOnce) {
       EXPECT_EQ(passNames(), expected);
       const bool raster = capture == FLK_CAPTURE_RASTER;
       EXPECT_EQ(scene.driver.countCommands("vkCmdBeginRendering"), raster ? (method == FLK_METHOD_HARD ? 3u : 2u) : 0u);
-      EXPECT_EQ(scene.driver.countCommands("vkCmdClearColorImage"), raster ? 0u : 1u);
       for (const FlkPassInfo& pass : passesOf(plan)) {
-        EXPECT_EQ(pass.hash == 0, pass.stage == FLK_STAGE_CLEAR) << pass.name;
+        EXPECT_EQ(pass.hash == 0, pass.stage == FLK_STAGE_CLEAR && raster) << pass.name;  // shadow maps by compute are cleared so
         const bool draws = pass.stage == FLK_STAGE_SHADOW || pass.stage == FLK_STAGE_CAPTURE;
         EXPECT_EQ(pass.indices != 0, draws && raster) << pass.name;
         EXPECT_EQ(pass.segments != 0, draws && !raster) << pass.name;

@@ -35,8 +35,8 @@ protected:
   }
 
   // A grid of groups of 64 items.
-  static std::vector<uint64_t> gridOf(uint64_t items) {
-    const uint64_t groups = (items + 63) / 64;
+  static std::vector<uint64_t> gridOf(uint64_t items, uint64_t group) {
+    const uint64_t groups = (items + group - 1) / group;
     return {std::min<uint64_t>(groups, 32768), (groups + 32767) / 32768, 1};
   }
 
@@ -61,7 +61,7 @@ protected:
         for (uint32_t i = 0; i < frame.hair_count; ++i) {
           FlkHairInfo info{};
           ASSERT_EQ(flkHairGetInfo(frame.hairs[i], &info), FLK_SUCCESS);
-          planned_dispatches.push_back(gridOf(info.segment_count));
+          planned_dispatches.push_back(gridOf(info.segment_count, 16));
           segments += info.segment_count;
         }
       EXPECT_EQ(segments, pass.segments) << pass.name;
@@ -69,7 +69,7 @@ protected:
       for (const FlkHair& hair_moved : moved) {
         FlkHairInfo info{};
         ASSERT_EQ(flkHairGetInfo(hair_moved, &info), FLK_SUCCESS);
-        planned_dispatches.push_back(gridOf(info.strand_count));
+        planned_dispatches.push_back(gridOf(info.strand_count, 64));
       }
     }
     EXPECT_EQ(raster_indices, planned_indices);
@@ -142,7 +142,7 @@ TEST_F(Recording, hairThatWasNotUploadedIsLeftOut) {
   frame.capture = FLK_CAPTURE_COMPUTE;
   scene.driver.commands.clear();
   ASSERT_EQ(scene.render(view, frame, &plan), FLK_SUCCESS);
-  EXPECT_EQ(scene.driver.countCommands("vkCmdDispatch"), 1u);  // the resolve
+  EXPECT_EQ(scene.driver.countCommands("vkCmdDispatch"), 2u);  // clear and resolve
   scene.driver.completed = number;
 }
 
@@ -247,7 +247,8 @@ TEST_F(Recording, nothingInView) {
     EXPECT_EQ(statistics.frame_number, number);
     EXPECT_EQ(statistics.fragments, 0u);
     EXPECT_EQ(statistics.overflow_fragments, 0u);
-    for (const double time : statistics.milliseconds) EXPECT_EQ(time, -1.0);
+    EXPECT_EQ(statistics.milliseconds_frame, -1.0);
+  for (const double time : statistics.milliseconds) EXPECT_EQ(time, -1.0);
   }
 }
 
@@ -299,6 +300,16 @@ TEST_F(Recording, timesOfPasses) {
   for (uint32_t stage = 0; stage < FLK_STAGE_COUNT; ++stage)
     EXPECT_NEAR(statistics.milliseconds[stage], stage == FLK_STAGE_PREPARE || stage == FLK_STAGE_OUTPUT ? -1.0 : 1.0, 1e-9) << stage;
 
+  EXPECT_NEAR(statistics.milliseconds_frame, double(FLK_STAGE_COUNT), 1e-9);
+
+  frame = next();
+  frame.timestamps = FLK_TIMESTAMPS_FRAME;
+  render(frame);
+  EXPECT_EQ(scene.driver.countCommands("vkCmdWriteTimestamp2"), 2u);
+  ASSERT_EQ(flkViewGetStatistics(view, number, &statistics), FLK_SUCCESS);
+  EXPECT_GT(statistics.milliseconds_frame, 0.0);
+  for (uint32_t stage = 0; stage < FLK_STAGE_COUNT; ++stage) EXPECT_EQ(statistics.milliseconds[stage], -1.0) << stage;
+
   scene.light.casts_shadow = 0;
   render(next());
   ASSERT_EQ(flkViewGetStatistics(view, number, &statistics), FLK_SUCCESS);
@@ -309,6 +320,7 @@ TEST_F(Recording, timesOfPasses) {
   frame.timestamps = 0;
   render(frame);
   ASSERT_EQ(flkViewGetStatistics(view, number, &statistics), FLK_SUCCESS);
+  EXPECT_EQ(statistics.milliseconds_frame, -1.0);
   for (const double time : statistics.milliseconds) EXPECT_EQ(time, -1.0);
 }
 

@@ -357,6 +357,10 @@ typedef struct FlkOutputImage {
   FlkImageState entry, exit; /* inside: VK_IMAGE_LAYOUT_GENERAL, COMPUTE_SHADER storage write */
 } FlkOutputImage;
 
+/* Device times of a frame. A stamp between two stages keeps them apart: shadow maps and the capture of a method that does not shade there
+   may else run at the same time. */
+enum { FLK_TIMESTAMPS_NONE = 0, FLK_TIMESTAMPS_STAGES = 1, FLK_TIMESTAMPS_FRAME = 2 /* the whole frame alone, as it runs untimed */ };
+
 typedef struct FlkFrame {
   uint32_t type;    /* FLK_TYPE_FRAME */
   const void* next; /* NULL */
@@ -377,7 +381,7 @@ typedef struct FlkFrame {
   uint32_t k_sort;           /* fragments sorted [k, 32]; optional: 0 is max(8, k) */
   uint32_t payload;          /* FLK_PAYLOAD_... */
   uint32_t display;          /* FLK_DISPLAY_... */
-  uint32_t timestamps;       /* 1: time each pass (see FlkStatistics) */
+  uint32_t timestamps;       /* FLK_TIMESTAMPS_... (see FlkStatistics) */
   FlkColorTarget target;
   FlkDepthSource depth;
   /* All below is optional: zero leaves it out, with its passes, memory and shader code. */
@@ -470,6 +474,7 @@ typedef struct FlkStatistics {
   uint64_t frame_number;
   uint64_t fragments;         /* that passed the tests, stored or not: exact up to 4,026,531,840, where it stays */
   uint64_t overflow_fragments;/* found the lists full (see FlkFrame.overflow; the next plan grows within the budget): exact */
+  double milliseconds_frame;  /* of all that flkCmdRender records; -1: not timed */
   double milliseconds[FLK_STAGE_COUNT]; /* by FLK_STAGE_...; -1: not timed or not run */
   /* With FlkFrame.count_work, else 0. */
   uint64_t pixels;            /* that the resolve found hair in */

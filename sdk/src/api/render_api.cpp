@@ -205,6 +205,7 @@ const char* frameFault(const FlkFrame& frame) {
       frame.k_sort < (frame.k ? frame.k : 8))
     return "frame.k_sort must not be less than k";
   if (frame.tail > FLK_TAIL_ONCE) return "frame.tail is none of FLK_TAIL_...";
+  if (frame.timestamps > FLK_TIMESTAMPS_FRAME) return "frame.timestamps is none of FLK_TIMESTAMPS_...";
   if (frame.low_shade > FLK_LOW_SHADE_LOBES) return "frame.low_shade is none of FLK_LOW_SHADE_...";
   const uint32_t taps = frame.core_taps;
   if (taps != 0 && taps != 1 && taps != 4 && taps != 9 && taps != 25) return "frame.core_taps must be 1, 4, 9 or 25, or 0 for 25";

@@ -25,7 +25,6 @@ namespace forelock {
   X(vkCmdBindDescriptorSets)      \
   X(vkCmdBindIndexBuffer)         \
   X(vkCmdBindPipeline)            \
-  X(vkCmdClearColorImage)         \
   X(vkCmdCopyBuffer)              \
   X(vkCmdDispatch)                \
   X(vkCmdDrawIndexed)             \

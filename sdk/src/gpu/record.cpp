@@ -69,7 +69,6 @@ VkImageSubresourceRange mapRange(const Image& map) {
 
 const FlkImageState kStorageInside{VK_IMAGE_LAYOUT_GENERAL, kCompute, kStorageRead | kStorageWrite};
 const FlkImageState kOutputInside{VK_IMAGE_LAYOUT_GENERAL, kCompute, kStorageWrite};
-const FlkImageState kMapCleared{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_CLEAR_BIT, kTransferWrite};
 const FlkImageState kMapDrawn{VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepthTests,
                               VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 
@@ -92,10 +91,10 @@ struct PreparePush {
   float spread_tip;
 };
 
-// Groups of 64 items as a grid that every device takes.
-void dispatchItems(const Functions& fn, VkCommandBuffer cmd, uint32_t items) {
+// Items as a grid of groups that every device takes.
+void dispatchItems(const Functions& fn, VkCommandBuffer cmd, uint32_t items, uint32_t group) {
   constexpr uint32_t kRow = 32768;
-  const uint32_t groups = (items + 63) / 64;
+  const uint32_t groups = (items + group - 1) / group;
   fn.vkCmdDispatch(cmd, groups < kRow ? groups : kRow, (groups + kRow - 1) / kRow, 1);
 }
 
@@ -131,7 +130,7 @@ void View::drawHair(VkCommandBuffer cmd, const Frame& frame, uint32_t index, con
       for (int row = 0; row < 3; ++row) push.map_from_hair.m[column * 3 + row] = float(map[std::size_t(column) * 4 + std::size_t(row)]);
   }
   fn.vkCmdPushConstants(cmd, layout, kPushStages, 0, sizeof push, &push);
-  if (frame.plan.compute) return dispatchItems(fn, cmd, hair.segment_count);
+  if (frame.plan.compute) return dispatchItems(fn, cmd, hair.segment_count, FLK_WALK_SEGMENTS);
   for (uint32_t first = 0; first < hair.segment_count; first += kSegmentsPerDraw) {
     const uint32_t count =
         hair.segment_count - first < kSegmentsPerDraw ? hair.segment_count - first : kSegmentsPerDraw;
@@ -155,7 +154,7 @@ void View::recordPrepare(VkCommandBuffer cmd, const Frame& frame, VkPipeline pip
                            hair.address(Hair::kMoved),   hair.strand_count, moved.stride,
                            hair.spread_tip};
     fn.vkCmdPushConstants(cmd, context_.pipelines.layout, kPushStages, 0, 44, &push);
-    dispatchItems(fn, cmd, hair.strand_count);
+    dispatchItems(fn, cmd, hair.strand_count, 64);
   }
   Barriers()
       .add(memoryBarrier(kCompute, kStorageWrite, context_.device.graphics ? kCompute | kRaster : kCompute, kStorageRead))
@@ -166,21 +165,11 @@ void View::recordShadow(VkCommandBuffer cmd, const Frame& frame, VkPipeline pipe
   const Functions& fn = context_.device.fn;
   const Image& map = frame.shadow_map;
   const bool compute = frame.plan.compute;
-  const FlkImageState before{VK_IMAGE_LAYOUT_UNDEFINED, context_.device.graphics ? kCompute | kRaster : kCompute, 0};
-  const FlkImageState read{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                           context_.device.graphics ? kCompute | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT : kCompute, kSampled};
   if (compute) {
-    Barriers().add(imageBarrier(map.handle, mapRange(map), before, kMapCleared)).record(fn, cmd);
-    VkClearColorValue empty{};
-    empty.uint32[0] = 0x3F800000u;  // 1.0
-    const VkImageSubresourceRange range = mapRange(map);
-    fn.vkCmdClearColorImage(cmd, map.handle, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &empty, 1, &range);
-    Barriers().add(imageBarrier(map.handle, range, kMapCleared, kStorageInside)).record(fn, cmd);
     fn.vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
   } else {
-    FlkImageState from = before, to = kMapDrawn;
-    from.stages |= kDepthTests;
-    from.access = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+    const FlkImageState from{VK_IMAGE_LAYOUT_UNDEFINED, kCompute | kRaster | kDepthTests, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+    FlkImageState to = kMapDrawn;
     to.access |= VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
     Barriers().add(imageBarrier(map.handle, mapRange(map), from, to)).record(fn, cmd);
     VkRenderingAttachmentInfo depth{};
@@ -206,7 +195,14 @@ void View::recordShadow(VkCommandBuffer cmd, const Frame& frame, VkPipeline pipe
     for (uint32_t i = 0; i < frame.hair_count; ++i) drawHair(cmd, frame, i, &face, f);
   }
   if (!compute) fn.vkCmdEndRendering(cmd);
-  Barriers().add(imageBarrier(map.handle, mapRange(map), compute ? kStorageInside : kMapDrawn, read)).record(fn, cmd);
+}
+
+// From the shadow pass to what reads its map: capture where it shades, else resolve, so that shadow and capture may overlap.
+VkImageMemoryBarrier2 View::shadowDone(const Frame& frame) const {
+  const FlkImageState read{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                           context_.device.graphics ? kCompute | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT : kCompute, kSampled};
+  const Image& map = frame.shadow_map;
+  return imageBarrier(map.handle, mapRange(map), frame.plan.compute ? kStorageInside : kMapDrawn, read);
 }
 
 void View::recordCapture(VkCommandBuffer cmd, const Frame& frame, VkPipeline pipeline) {
@@ -228,22 +224,34 @@ void View::recordCapture(VkCommandBuffer cmd, const Frame& frame, VkPipeline pip
   if (!frame.plan.compute) fn.vkCmdEndRendering(cmd);
 }
 
-void View::recordClear(VkCommandBuffer cmd, const Frame& frame) {
+void View::recordClear(VkCommandBuffer cmd, const Frame& frame, VkPipeline pipeline) {
   const Functions& fn = context_.device.fn;
   const FramePlan& plan = frame.plan;
   const VkPipelineStageFlags2 shaders = context_.device.graphics ? kCompute | kRaster : kCompute;
   // After the frame before, whose passes may still run on this queue.
-  Barriers()
-      .add(memoryBarrier(shaders | kTransfer, kStorageWrite | kTransferWrite, kTransfer, kTransferWrite))
-      .record(fn, cmd);
+  Barriers before;
+  before.add(memoryBarrier(shaders | kTransfer, kStorageWrite | kTransferWrite, kTransfer | (pipeline ? kCompute : 0),
+                           kTransferWrite | (pipeline ? kStorageWrite : 0)));
+  Barriers ready;
+  ready.add(memoryBarrier(kTransfer, kTransferWrite, shaders, kStorageRead | kStorageWrite));
+  if (pipeline) {
+    const Image& map = frame.shadow_map;
+    before.add(imageBarrier(map.handle, mapRange(map), {VK_IMAGE_LAYOUT_UNDEFINED, shaders, 0}, kStorageInside)).record(fn, cmd);
+    fn.vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    const uint32_t head_count = uint32_t(plan.bytes(ResourceId::heads) / 4);
+    fn.vkCmdPushConstants(cmd, context_.pipelines.layout, kPushStages, 0, sizeof head_count, &head_count);
+    const Pass& clear = plan.passes.items[0];
+    fn.vkCmdDispatch(cmd, clear.groups[0], clear.groups[1], clear.groups[2]);
+    ready.add(memoryBarrier(kCompute, kStorageWrite, kCompute, kStorageRead | kStorageWrite));
+  } else {
+    before.record(fn, cmd);
+    if (plan.bytes(ResourceId::heads)) fn.vkCmdFillBuffer(cmd, frame.heads, 0, plan.bytes(ResourceId::heads), FLK_LINK_END);
+    fn.vkCmdFillBuffer(cmd, frame.counters, 0, VK_WHOLE_SIZE, 0);
+  }
+  if (plan.aggregate) fn.vkCmdFillBuffer(cmd, frame.aggregates, 0, plan.bytes(ResourceId::aggregates), 0);
   update(fn, cmd, frame.constants, &frame.values,
          offsetof(gpu::FrameConstants, hairs) + frame.hair_count * sizeof(gpu::HairConstants));
   if (!frame.light_values.empty()) update(fn, cmd, frame.lights, frame.light_values.data(), frame.light_values.size());
-  if (plan.bytes(ResourceId::heads)) fn.vkCmdFillBuffer(cmd, frame.heads, 0, plan.bytes(ResourceId::heads), FLK_LINK_END);
-  if (plan.aggregate) fn.vkCmdFillBuffer(cmd, frame.aggregates, 0, plan.bytes(ResourceId::aggregates), 0);
-  fn.vkCmdFillBuffer(cmd, frame.counters, 0, VK_WHOLE_SIZE, 0);
-  Barriers ready;
-  ready.add(memoryBarrier(kTransfer, kTransferWrite, shaders, kStorageRead | kStorageWrite));
   if (plan.light_mode == FLK_LIGHTS_TILES)
     ready.add(memoryBarrier(frame.light_tiles.entry_stages, frame.light_tiles.entry_access, shaders, kStorageRead));
   auto await = [&](VkImage image, const VkImageSubresourceRange& range, VkImageLayout image_layout, VkPipelineStageFlags2 stages,
@@ -272,7 +280,7 @@ void View::record(VkCommandBuffer cmd, Frame& frame) {
   }
   const uint32_t first_query = frame.slot * kTimestamps;
   auto timestamp = [&](uint32_t index) {
-    if (plan.timestamps)
+    if (plan.timestamps == FLK_TIMESTAMPS_STAGES || (plan.timestamps && (index == 0 || index == FLK_STAGE_COUNT)))
       fn.vkCmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, first_query + index);
   };
   if (plan.timestamps) fn.vkCmdResetQueryPool(cmd, queries_, first_query, kTimestamps);
@@ -280,6 +288,7 @@ void View::record(VkCommandBuffer cmd, Frame& frame) {
 
   const VkPipelineLayout layout = context_.pipelines.layout;
   const VkPipelineStageFlags2 capturing = plan.compute ? kCompute : VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+  const bool capture_shades = plan.method->capture == CaptureKind::color;
   uint32_t at_stage = 0;  // of kStageOrder
   for (std::size_t i = 0; i < plan.passes.count; ++i) {
     const Pass& pass = plan.passes.items[i];
@@ -287,15 +296,18 @@ void View::record(VkCommandBuffer cmd, Frame& frame) {
     const VkPipeline pipeline = frame.pipelines[i];
     switch (pass.id) {
       case PassId::clear:
-        recordClear(cmd, frame);
         if (!plan.compute) {
           fn.vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &frame.bound.set, 0, nullptr);
           fn.vkCmdBindIndexBuffer(cmd, context_.indices.handle, 0, VK_INDEX_TYPE_UINT16);
         }
         fn.vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &frame.bound.set, 0, nullptr);
+        recordClear(cmd, frame, pipeline);
         break;
       case PassId::prepare: recordPrepare(cmd, frame, pipeline); break;
-      case PassId::shadow: recordShadow(cmd, frame, pipeline); break;
+      case PassId::shadow:
+        recordShadow(cmd, frame, pipeline);
+        if (capture_shades) Barriers().add(shadowDone(frame)).record(fn, cmd);
+        break;
       case PassId::hard_depth:
         recordCapture(cmd, frame, pipeline);
         Barriers()
@@ -309,6 +321,7 @@ void View::record(VkCommandBuffer cmd, Frame& frame) {
         Barriers done;
         done.add(memoryBarrier(capturing, kStorageWrite, kCompute | VK_PIPELINE_STAGE_2_COPY_BIT,
                                kStorageRead | kStorageWrite | VK_ACCESS_2_TRANSFER_READ_BIT));
+        if (plan.hasShadow() && !capture_shades) done.add(shadowDone(frame));
         if (!plan.count_only) done.add(imageBarrier(frame.target.image, frame.target.range, frame.target.entry, kStorageInside));
         done.record(fn, cmd);
         break;

@@ -84,6 +84,7 @@ void View::readStatistics(const Frame& frame) {
   learnt_ = frame.number;
   latest_ = {};
   latest_.frame_number = frame.number;
+  latest_.milliseconds_frame = -1;
   for (double& ms : latest_.milliseconds) ms = -1;
   if (frame.plan.passes.count == 0) return;
   const Device& device = context_.device;
@@ -104,15 +105,20 @@ void View::readStatistics(const Frame& frame) {
   }
   if (!frame.plan.timestamps || !queries_) return;
   uint64_t ticks[kTimestamps] = {};
-  if (device.fn.vkGetQueryPoolResults(device.device, queries_, frame.slot * kTimestamps, kTimestamps, sizeof ticks,
-                                      ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
-    return;
+  const bool stages = frame.plan.timestamps == FLK_TIMESTAMPS_STAGES;
+  for (uint32_t i = 0; i < kTimestamps; ++i)
+    if ((stages || i == 0 || i == FLK_STAGE_COUNT) &&
+        device.fn.vkGetQueryPoolResults(device.device, queries_, frame.slot * kTimestamps + i, 1, sizeof ticks[i], &ticks[i],
+                                        sizeof ticks[i], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
+      return;
   const uint64_t mask = device.timestamp_bits >= 64 ? ~uint64_t(0) : (uint64_t(1) << device.timestamp_bits) - 1;
-  for (uint32_t i = 0; i < FLK_STAGE_COUNT; ++i)
+  const auto between = [&](uint32_t first, uint32_t last) {
+    return double((ticks[last] - ticks[first]) & mask) * double(device.limits.timestampPeriod) * 1e-6;
+  };
+  latest_.milliseconds_frame = between(0, FLK_STAGE_COUNT);
+  for (uint32_t i = 0; i < FLK_STAGE_COUNT && stages; ++i)
     for (const Pass& pass : frame.plan.passes)
-      if (stageOf(pass.id) == kStageOrder[i])
-        latest_.milliseconds[kStageOrder[i]] =
-            double((ticks[i + 1] - ticks[i]) & mask) * double(device.limits.timestampPeriod) * 1e-6;
+      if (stageOf(pass.id) == kStageOrder[i]) latest_.milliseconds[kStageOrder[i]] = between(i, i + 1);
 }
 
 FlkResult View::statistics(uint64_t completed, FlkStatistics& statistics) {
@@ -359,7 +365,7 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
   for (uint32_t i = 0; i < FLK_OUTPUT_COUNT; ++i) facts.outputs |= asked.outputs[i].view ? 1u << i : 0;
   facts.has_depth = asked.depth.view != VK_NULL_HANDLE;
   facts.frames_in_flight = uint32_t(frames_.size());
-  facts.timestamps = asked.timestamps && (device.planning() || device.timestamp_bits > 0);
+  facts.timestamps = device.planning() || device.timestamp_bits > 0 ? asked.timestamps : 0u;
   if (!device.planning()) facts.image_limit = std::min(limits.maxImageDimension2D, limits.maxFramebufferWidth);
 
   PoolState pool = pool_;

@@ -105,9 +105,10 @@ private:
   FlkResult ensureSet(VkDescriptorPool pool, BoundSet& bound, uint32_t needed);
   FlkResult ensureSets(Frame& frame, const FramePlan& plan);
   void writeSet(Frame& frame, BoundSet& bound, VkImageView storage, uint32_t needed);
-  void recordClear(VkCommandBuffer cmd, const Frame& frame);
+  void recordClear(VkCommandBuffer cmd, const Frame& frame, VkPipeline pipeline);
   void recordPrepare(VkCommandBuffer cmd, const Frame& frame, VkPipeline pipeline);
   void recordShadow(VkCommandBuffer cmd, const Frame& frame, VkPipeline pipeline);
+  VkImageMemoryBarrier2 shadowDone(const Frame& frame) const;
   void recordCapture(VkCommandBuffer cmd, const Frame& frame, VkPipeline pipeline);
   void recordOutput(VkCommandBuffer cmd, const Frame& frame, const Pass& pass, VkPipeline pipeline);
   void drawHair(VkCommandBuffer cmd, const Frame& frame, uint32_t index, const ShadowFace* face, uint32_t face_index);

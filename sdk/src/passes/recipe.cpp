@@ -4,7 +4,7 @@ namespace forelock {
 
 Recipe recipeOf(const FramePlan& plan, const Pass& pass) {
   switch (pass.id) {
-    case PassId::clear: return {};
+    case PassId::clear: return clearRecipe(plan);
     case PassId::prepare: return prepareRecipe();
     case PassId::shadow: return shadowRecipe(plan);
     case PassId::count:

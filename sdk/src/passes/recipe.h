@@ -21,6 +21,7 @@ enum class ShaderId : uint8_t {
   shadow_vert,
   shadow_frag,
   shadow_compute,
+  clear,
   prepare,
   resolve,
   resolve_colors,
@@ -42,12 +43,12 @@ struct Recipe {
   bool operator==(const Recipe&) const = default;
 };
 
+Recipe clearRecipe(const FramePlan& plan);  // nothing, but with shadow maps by compute
 Recipe prepareRecipe();
 Recipe shadowRecipe(const FramePlan& plan);
 Recipe captureRecipe(const FramePlan& plan, PassId pass);
 Recipe resolveRecipe(const FramePlan& plan);
 Recipe outputRecipe(const FramePlan& plan, uint32_t output);
-// Of any pass but clear.
 Recipe recipeOf(const FramePlan& plan, const Pass& pass);
 
 // Constants of shaders that shade, and the images they read for it.

@@ -25,7 +25,7 @@ double estimateHair(const Camera& camera, const HairFacts& hair, double nearest)
   return hair.length * scale * (2 * hair.radius * scale + kMeanPixelExtent);
 }
 
-// Columns of 128 bit-reversed tiles: see shaders/passes/tile_order.glsl.
+// 128 strips of tiles, bit-reversed: see shaders/passes/tile_order.glsl.
 Pass tilePass(PassId id, const char* name, const Rect& rect) {
   const uint64_t tiles = uint64_t((rect.width + 7) / 8) * ((rect.height + 7) / 8);
   Pass pass{id, name};
@@ -78,7 +78,10 @@ void planLights(const FrameFacts& facts, FramePlan& plan) {
 void planPasses(const FrameFacts& facts, uint64_t all_segments, FramePlan& plan) {
   const Method& method = *plan.method;
   const uint64_t pixels = uint64_t(plan.rect.width) * plan.rect.height;
-  plan.passes.add({PassId::clear, "clear"});
+  Pass clear{PassId::clear, "clear"};
+  if (plan.compute && plan.hasShadow())  // of the shadow maps; buffers are filled
+    clear.groups[0] = (plan.shadow.width + 7) / 8, clear.groups[1] = (plan.shadow.height + 7) / 8, clear.groups[2] = 1;
+  plan.passes.add(clear);
   uint32_t moved = 0;
   for (std::size_t i = 0; i < facts.hairs.size(); ++i)
     if (facts.hairs[i].host_positions && (plan.visible >> i & 1 || plan.hasShadow())) ++moved;

@@ -53,7 +53,7 @@ struct FramePlan {
   uint32_t k = 0, k_sort = 0, payload = 0, display = 0;
   bool one_hair = false;     // fragments need no slot to be told apart
   bool has_depth = false;
-  bool timestamps = false;
+  uint32_t timestamps = 0;   // FLK_TIMESTAMPS_...
   bool compute = false;
   bool count_only = false;
   bool count_work = false;

@@ -18,10 +18,11 @@ void main() {
   bool upright = abs(t.y) >= abs(t.x);
   float along = upright ? t.y : t.x, across = upright ? p.x : p.y;
   float reach = (h + pixelHalfExtent(leftNormal(t))) / abs(along) + 2.0;
+  QuadFacts facts = quadFacts(t, length_px);
   vec3 sum = vec3(0.0);
   for (float c = floor(across - reach) + 0.5; c < across + reach; c += 1.0) {
     vec2 center = upright ? vec2(c, floor(p.y) + 0.5) : vec2(floor(p.x) + 0.5, c);
-    StrandFragment f = strandFragment(center, vec4(a, b), vec4(0.0), vec4(h, h, length_px, length_px),
+    StrandFragment f = strandFragment(center, facts, vec4(a, b), vec4(0.0), vec4(h, h, length_px, length_px),
                                       vec4(1.0, 1.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), vec4(1.0, 0.0, 0.0, length_px),
                                       t, vec3(0.0, 0.0, 1.0), 0.0);
     sum.x += f.coverage;

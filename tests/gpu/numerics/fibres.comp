@@ -8,5 +8,5 @@
 
 void main() {
   if (noItem()) return;
-  out1(0, fibreTransmittance(in1(0), in1(1)));
+  out1(0, hairTransmittance(in1(0), shadowTaps(ivec2(0), ivec2(0), vec3(0.0, 0.0, in1(0)), 1, 0.0, 1.0, 1.0, in1(1))));
 }

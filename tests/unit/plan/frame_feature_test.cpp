@@ -81,7 +81,7 @@ TEST_F(FrameFeature, WhatIsNotThereCostsNothing) {
   same("shape of a directional light", [&] { lights[0].outer_angle = 1, lights[0].position = {1, 2, 3}; });
   same("strands", [&] { hairs[0].strands = 77; });
   same("the image limit", [&] { facts.image_limit = 1024; });
-  same("timestamps", [&] { facts.timestamps = true; });
+  same("timestamps", [&] { facts.timestamps = 1; });
   same("tail of a default", [&] { facts.tail = FLK_TAIL_DETERMINISTIC; });
   // A method that reads no tail, no k, no sorted core.
   facts.method = FLK_METHOD_EXACT;
@@ -326,7 +326,7 @@ TEST_F(FrameFeature, EverythingAtOnceFits) {
   for (HairFacts& hair : hairs) hair.host_positions = hair.colors = true;
   lights.assign(96, lights[0]);
   for (LightFacts& light : lights) light.shadow_size = 64, light.host_shadow = light.host_visibility = true;
-  facts.outputs = 15, facts.has_depth = facts.timestamps = facts.count_work = facts.ambient_sh = facts.light_tiles = true;
+  facts.outputs = 15, facts.timestamps = 1, facts.has_depth = facts.count_work = facts.ambient_sh = facts.light_tiles = true;
   facts.modifiers = 0x55;
   for (uint32_t method = 0; method <= FLK_METHOD_HARD; ++method) {
     facts.method = method;

@@ -17,7 +17,7 @@ constexpr const char* kColumns[] = {
     "cpu_per_wall", "full_shades", "shadow_taps", "bytes_persistent", "bytes_transient", "limit_us", "overflow_fragments",
     "rmse_forward", "rmse_exact", "rmse_exact_channel", "rmse_cover", "p999_exact", "perceptual", "radiance_ratio",
     "temporal_drift", "order_noise", "deterministic", "reference_hash", "scene_hash", "commit", "device", "driver", "status",
-    "frame_noise", "pair_ratio", "pair_spread"};
+    "frame_noise", "pair_ratio", "pair_spread", "ms_dense"};
 
 std::string headerLine() { return csvLine({std::begin(kColumns), std::end(kColumns)}); }
 

@@ -64,9 +64,7 @@ double Drawing::render(FlkFrame frame) {
   if (result != FLK_SUCCESS)
     throw RowFailure(std::string("failed: ") + flkResultName(result) + (host_.messages().empty() ? "" : ", " + host_.messages().back()));
   if (host_.statistics(lists_, statistics_) != FLK_SUCCESS) throw RowFailure("failed: the frame has no statistics");
-  double total = 0;
-  for (const double ms : statistics_.milliseconds) total += std::max(ms, 0.0);
-  return total;
+  return statistics_.milliseconds_frame;
 }
 
 void Drawing::prepare() {
@@ -86,6 +84,14 @@ void Drawing::prepare() {
 double Drawing::draw(Order order) {
   const std::vector<FlkHair>& hairs = subject_.hairs(order);
   FlkFrame frame = frame_;
+  frame.hairs = hairs.data(), frame.hair_count = uint32_t(hairs.size());
+  return render(frame);
+}
+
+double Drawing::drawStages() {
+  const std::vector<FlkHair>& hairs = subject_.hairs(Order::kept);
+  FlkFrame frame = frame_;
+  frame.timestamps = FLK_TIMESTAMPS_STAGES;
   frame.hairs = hairs.data(), frame.hair_count = uint32_t(hairs.size());
   return render(frame);
 }

@@ -49,8 +49,10 @@ public:
 
   // Sizes the lists so that nothing overflows and draws once. Throws RowFailure.
   void prepare();
-  // One frame, waited for; total of its passes (ms). Throws RowFailure.
+  // One frame, waited for; its device time (ms). Throws RowFailure.
   double draw(Order order = Order::kept);
+  // With a time for each stage, which keeps stages apart that may else overlap; statistics() then has them.
+  double drawStages();
   // With the camera moved.
   void drawMoved(const Matrices& matrices);
   // With counters; statistics() then has them.
@@ -60,6 +62,7 @@ public:
   // Of the rectangle, of the last frame.
   Picture picture(const Rect& rect);
   FlkPlan plan() const { return plan_; }
+  FlkView view() const { return lists_.get(); }
   // By the wall clock, of the last frame.
   double seconds() const { return seconds_; }
 

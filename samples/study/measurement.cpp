@@ -109,7 +109,7 @@ void applyMeasurement(const Measurement& m, FlkFrame& frame) {
   frame.overflow = FLK_OVERFLOW_DROP;
   // Of the paper's payload alone: colours up to 4, since fragments are brighter than the pixels they make up.
   frame.exposure = 0.25f;
-  frame.timestamps = 1;
+  frame.timestamps = FLK_TIMESTAMPS_FRAME;
   frame.core_taps = m.core_taps;
 }
 

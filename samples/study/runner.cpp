@@ -2,6 +2,7 @@
 #include "runner.h"
 
 #include "csv.h"
+#include "dense.h"
 #include "device_file.h"
 #include "flip.h"
 #include "frames.h"
@@ -265,12 +266,13 @@ Times Study::timeRow(Drawing& base, Drawing& drawing) const {
   for (uint32_t i = 0; !cpu && (i < pairs || secondsSince(began) < kWarmUp_s); ++i) base.draw(), drawing.draw();
   Times times;
   for (uint32_t i = 0; i < pairs; ++i) {
-    times.baseline.push_back(base.draw());
+    times.baseline.push_back(cpu ? base.drawStages() : base.draw());
     const double processor = processorSeconds();
     const Clock::time_point start = Clock::now();
-    times.row.push_back(drawing.draw());
+    times.row.push_back(cpu ? drawing.drawStages() : drawing.draw());  // a processor runs one stage at a time
     times.wall_s += secondsSince(start);
     times.processor_s += processorSeconds() - processor;
+    if (!cpu) drawing.drawStages();
     for (int stage = 0; stage < FLK_STAGE_COUNT; ++stage)
       if (drawing.statistics().milliseconds[stage] >= 0) times.stages[stage].push_back(drawing.statistics().milliseconds[stage]);
   }
@@ -383,6 +385,13 @@ void Study::measure(const Measurement& m, Row& row) {
   drawing.drawCounted();
   row.set("full_shades", drawing.statistics().full_shades);
   row.set("shadow_taps", drawing.statistics().shadow_taps);
+
+  FlkShadowMap map{};
+  if (m.main && std::string_view(m.method->name) == "forward" && subject_.assets.size() == 1 &&
+      flkViewGetShadowMap(drawing.view(), 0, 0, &map) == FLK_SUCCESS) {
+    status_.show(done_, done_ + rows_.size(), "view " + view.name + ": its fragments shaded densely");
+    if (const auto ms = denseShading(*host_, twin_, view, subjectMaterial(subject_, 0, m.color), s.lighting, map)) row.set("ms_dense", *ms);
+  }
 
   if (options_.images && m.main && (subject_.has_setting || m.lights == options_.lights.front()))
     writePfm(imagePath(view.name + "-" + colorName(m.color) + "-" + m.method->name + "-" + m.capture), picture);

@@ -25,6 +25,7 @@ shaders/shared/ shaders/shared/.*
 shaders/lib/ shaders/(lib|shared)/.*
 shaders/passes/ shaders/(passes|lib|shared)/.*
 samples/common/ $public|samples/common/.*|vulkan
+samples/study/dense. $public|samples/(common|study)/.*|tests/reference/.*|shaders/.*|vulkan|generated
 samples/study/ $public|samples/(common|study)/.*|tests/reference/.*|vulkan|generated
 samples/minimal/ $public|vulkan
 samples/ $public|samples/.*|vulkan|generated

@@ -113,6 +113,7 @@ TEST(StudyRun, EveryColumnOfTheMainRowsIsFilled) {
     main_rows += main;
     for (const std::string column : columns()) {
       if (column == "tau" || column == "ms_shade") continue;  // of no method yet
+      if (column == "ms_dense" && method != "forward") continue;
       if (column == "k" && !method.starts_with("core_")) continue;
       if (column == "k_sort" && (method == "exact" || method == "hard")) continue;
       if (column == "core_taps" && method.starts_with("all_low")) continue;

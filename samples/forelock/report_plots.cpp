@@ -267,7 +267,7 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
   }
   if (errors.empty()) return;
   constexpr double width = 1000.0, height = 640.0;
-  const Rect area{0.085 * width, 0.115 * height, 0.80 * width, 0.975 * height};
+  const Rect area{0.085 * width, 0.115 * height, 0.77 * width, 0.975 * height};  // beside it the longest name of a method
   const Axis x = logAxis(least_ms, most_ms, 1.22), y = valueAxis(errors);
   const auto toX = [&](double ms) { return area.x0 + x.place(ms) * (area.x1 - area.x0); };
   const auto toY = [&](double error) { return area.y0 + y.place(error) * (area.y1 - area.y0); };
@@ -280,7 +280,7 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
        << y.range() << "\n  set xtics " << x.ticList() << "\n  set ytics " << y.ticList()
        << "\n  set xlabel 'time of a frame (ms): median, bars from the 5th to the 95th percentile'\n  set ylabel "
        << gnuplotText(errorLabel(*facts.error)) << " offset 1,0\n"
-       << "  set key at screen 0.815,0.965 left top Left reverse samplen 2.2 spacing 1.35 textcolor rgb '" << kInk << "'\n"
+       << "  set key at screen 0.785,0.965 left top Left reverse samplen 2.2 spacing 1.35 textcolor rgb '" << kInk << "'\n"
        << "  unset label\n";
 
   Labels labels(width, height, area);
@@ -370,6 +370,9 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
   }
   drawing.draw(file, is_main ? "../" : "", width, height, body.str(), data.str(), std::move(plot));
 }
+
+constexpr const char* kApart =
+    "The number beside a bar is the frame's time; its passes are timed in other frames, and may overlap where nothing times them.";
 
 // Time of the passes --------------------------------------------------------------------------------------------------------
 
@@ -489,7 +492,7 @@ void drawPasses(Drawing& drawing, const std::string& capture) {
   plot.title = "Time of the passes, view by view" + (capture.empty() ? "" : ": " + capture + " capture");
   plot.caption = (speeds.empty() ? "" : "Time of forward over time of core_tail is " + speeds + ". ") +
                  std::string("forward shades while it captures, the others while they resolve; core_only, without a tail's colour, is what "
-                             "core_tail could reach at best (the paper's Figure 3).");
+                             "core_tail could reach at best (the paper's Figure 3). ") + kApart;
   drawBars(drawing, drawing.stem("passes-views-" + capture), bars, plot);
 }
 
@@ -509,7 +512,7 @@ void drawMethods(Drawing& drawing, const std::string& capture) {
     return a.row->ms_total < b.row->ms_total;
   });
   plot.caption = least->name + " is the fastest with " + readableNumber(least->row->ms_total) + " ms, " + most->name + " takes " +
-                 readableNumber(most->row->ms_total / least->row->ms_total, 2) + " times as long.";
+                 readableNumber(most->row->ms_total / least->row->ms_total, 2) + " times as long. " + kApart;
   drawBars(drawing, drawing.stem("passes-methods-" + capture), bars, plot);
 }
 
@@ -545,10 +548,10 @@ void drawTailCost(Drawing& drawing, const std::string& capture) {
   for (const StudyView* view : shown) {
     tics += (tics.empty() ? "" : ", ") + gnuplotText(view->name) + " " + number(view->hair_pixels / 1e3);
   }
-  body << "  set lmargin at screen 0.085\n  set rmargin at screen 0.80\n  set bmargin at screen 0.15\n  set tmargin at screen 0.96\n"
+  body << "  set lmargin at screen 0.085\n  set rmargin at screen 0.77\n  set bmargin at screen 0.15\n  set tmargin at screen 0.96\n"
        << "  set xrange [0:" << number(1.06e-3 * most_pixels) << "]\n  set yrange " << y.range() << "\n  set xtics (" << tics << ")\n"
        << "  set xlabel 'hair pixels, at the views'\n  set ylabel 'time over that of core_only (ms)'\n  set ytics auto\n"
-       << "  set key at screen 0.815,0.94 left top Left reverse samplen 2.2 spacing 1.35 textcolor rgb '" << kInk << "'\n  unset label\n"
+       << "  set key at screen 0.785,0.94 left top Left reverse samplen 2.2 spacing 1.35 textcolor rgb '" << kInk << "'\n  unset label\n"
        << "  set xzeroaxis lc rgb '#999999' lt 1\n";
   data << "# a block a method: thousands of hair pixels, ms over core_only\n";
   const std::string stem = drawing.stem("tail-cost-" + capture);

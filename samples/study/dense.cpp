@@ -3,6 +3,7 @@
 
 #include "compute_bench.h"
 #include "dense_spv.h"
+#include "references.h"
 #include "shared/frame.h"
 #include "shared/light.h"
 
@@ -24,16 +25,10 @@ struct Held {
   uint32_t pixel, depth, tangent, code;
 };
 
-// In bands of rows, as references are made.
 std::vector<Held> heldFragments(const Twin& twin, const View& view) {
-  constexpr double kAtOnce = 6e6;
   std::vector<Held> held;
   held.reserve(view.fragments);
-  const auto bands = uint32_t(double(view.fragments) / kAtOnce) + 1;
-  for (uint32_t band = 0; band < bands; ++band) {
-    Rect rect = view.rect;
-    const auto begin = uint32_t(uint64_t(rect.height) * band / bands), end = uint32_t(uint64_t(rect.height) * (band + 1) / bands);
-    rect.y += begin, rect.height = end - begin;
+  for (const Rect& rect : bandsOf(view)) {
     reference::GatherOptions options;
     options.payload = reference::Payload::kept;
     const reference::FragmentLists lists =
@@ -62,7 +57,6 @@ Constants constantsOf(const View& view, const FlkMaterial& material, const Light
   const bool orthographic = clip[11] == 0;
   c.frame.proj_scale = {clip[0], clip[5]};
   c.frame.proj_offset = {clip[orthographic ? 12 : 8], clip[orthographic ? 13 : 9]};
-  if (!orthographic) c.frame.proj_offset = {clip[8], clip[9]};
   c.frame.orthographic = orthographic ? 1.0f : 0.0f;
   c.frame.size = {float(view.width), float(view.height)};
   c.frame.color_range = 1;

@@ -23,6 +23,8 @@ constexpr const char* kExamples =
     "`quick`; its scene file draws the whole view.\n\n"
     "Light: one material a colour, lights scaled until the mean of the exact image over hair is 64/255 (dark) or 128/255\n"
     "(light), see samples/common/condition.h. With --scene materials and lights are the scene's and all light is scaled.\n\n"
+    "Times are of whole frames, on a GPU with the stages timed in other frames. ms_dense, beside forward: the same fragments\n"
+    "shaded by a kernel that has them all in memory, which is what shading costs at least.\n\n"
     "Errors are against float64 references that are made once a view with shadow maps of the default size (1024): rows of\n"
     "other sizes are compared with these too, which is what the sweep is about.\n\n"
     "Examples:\n"

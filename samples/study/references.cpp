@@ -50,14 +50,9 @@ void append(Picture& to, const Picture& band) {
   to.fragments.insert(to.fragments.end(), band.fragments.begin(), band.fragments.end());
 }
 
-// In bands of rows, so that lists of many millions of fragments fit into memory.
 void render(const Twin& twin, const View& view, const Matrices& matrices, const std::vector<reference::LightMaps>& maps,
             Picture* exact, Picture* forward) {
-  const auto bands = uint32_t(std::clamp(double(view.fragments) / kFragmentsAtOnce, 0.0, double(view.rect.height) - 1)) + 1;
-  for (uint32_t band = 0; band < bands; ++band) {
-    Rect rect = view.rect;
-    const uint32_t begin = uint32_t(uint64_t(rect.height) * band / bands), end = uint32_t(uint64_t(rect.height) * (band + 1) / bands);
-    rect.y += begin, rect.height = end - begin;
+  for (const Rect& rect : bandsOf(view)) {
     const reference::Camera camera = referenceCamera(matrices, view.width, view.height, rect);
     const reference::FragmentLists lists = reference::gatherFragments(twin.scene, camera);
     reference::ResolveOptions options;
@@ -69,6 +64,16 @@ void render(const Twin& twin, const View& view, const Matrices& matrices, const 
 }
 
 }  // namespace
+
+std::vector<Rect> bandsOf(const View& view) {
+  const auto count = uint32_t(std::clamp(double(view.fragments) / kFragmentsAtOnce, 0.0, double(view.rect.height) - 1)) + 1;
+  std::vector<Rect> bands(count, view.rect);
+  for (uint32_t band = 0; band < count; ++band) {
+    const auto begin = uint32_t(uint64_t(view.rect.height) * band / count), end = uint32_t(uint64_t(view.rect.height) * (band + 1) / count);
+    bands[band].y += begin, bands[band].height = end - begin;
+  }
+  return bands;
+}
 
 References makeReferences(Twin& twin, View& view, const Lighting& unit_lighting, samples::HairColor color,
                           const ReferenceWish& wish, const ReferenceCache& cache) {

@@ -19,6 +19,9 @@ struct References {
   std::string reference_hash;   // of the pixels of R_exact
 };
 
+// The view's rectangle in bands of rows, so that lists of many millions of fragments fit into memory.
+std::vector<Rect> bandsOf(const View& view);
+
 // What to make, and who is told of it.
 struct ReferenceWish {
   bool drift = true, cover = false;

@@ -7,6 +7,7 @@
 #define FLK_BIND_HAIR
 #define FLK_BIND_LISTS
 #include "bindings.glsl"
+#include "../shared/walk.h"
 layout(local_size_x = FLK_WALK_LANES) in;
 #include "screen_segment.glsl"
 #include "capture_quad.glsl"

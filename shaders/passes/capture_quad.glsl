@@ -5,6 +5,9 @@
 #include "../lib/capture_fragment.glsl"
 #include "../lib/display.glsl"
 #include "../lib/modifiers.glsl"
+#if defined(FLK_CAPTURE_FORWARD) || defined(FLK_CAPTURE_DISPLAY)
+#define FLK_CAPTURE_COLORS
+#endif
 #ifdef FLK_CAPTURE_FORWARD
 #include "../lib/shading.glsl"
 #include "../lib/shadow.glsl"
@@ -25,17 +28,15 @@ float modifiersAt(vec2 pixel, float depth) {
   return factor;
 }
 
-#if defined(FLK_CAPTURE_FORWARD) || defined(FLK_CAPTURE_DISPLAY)
-#define FLK_CAPTURE_COLORS
-#endif
-
 // A fragment that is kept, on its way to the list.
 struct Captured {
   uvec2 pixel;     // of the target
   float depth;
   float alpha;     // before it is coded
+#ifdef FLK_CAPTURE_FORWARD
+  vec3 tangent;
+#endif
 #ifdef FLK_CAPTURE_COLORS
-  vec3 tangent;    // FLK_CAPTURE_FORWARD
   vec3 color;      // FLK_CAPTURE_FORWARD: of the fibre, with kColor; else what is shown
 #else
   uint payload;
@@ -74,7 +75,6 @@ bool captureFragment(SegmentShape shape, QuadFacts facts, FibreColors colors, uv
   kept.tangent = f.tangent;
   kept.color = kColor ? fibreColor(colors, f.along, f.fraction) : vec3(0.0);
 #elif defined(FLK_CAPTURE_DISPLAY)
-  kept.tangent = vec3(0.0);
   kept.color = vec3(1.0);
   if (kDisplay == FLK_SHOW_STRAND) kept.color = strandColor(uint(shape.tangent_a.w));
   else if (kDisplay == FLK_SHOW_ROOT_TIP) kept.color = rootTipColor(f.fraction);
@@ -85,9 +85,7 @@ bool captureFragment(SegmentShape shape, QuadFacts facts, FibreColors colors, uv
   kept.color = kColor ? packSharedExponent(fibreColor(colors, f.along, f.fraction)) : 0u;
 #endif
   bool keeps = live && code != 0u;
-#ifdef FLK_BIND_DEPTH
   if (keeps) keeps = !behindHostDepth(pixel, f.depth);
-#endif
   return keeps;
 }
 

@@ -42,7 +42,7 @@ void aggregateFragment(uint index, float depth, uint payload, float alpha, vec3 
   uint base = index * FLK_AGGREGATE_WORDS;
   float tau = min(-log2(max(1.0 - alpha, 1.0 / 8192.0)), FLK_TAU_MOST);
   if (pool.words[base] >= FLK_TAU_SATURATED) return;
-#if defined(FLK_CAPTURE_FORWARD) || defined(FLK_CAPTURE_DISPLAY)
+#ifdef FLK_CAPTURE_COLORS
   uvec3 weighted = uvec3(tau * FLK_TAU_COLOR_STEPS * clamp(color / frame.color_range, 0.0, 1.0) * 255.0 + 0.5);
   atomicAdd(pool.words[base + 1u], weighted.x);
   atomicAdd(pool.words[base + 2u], weighted.y);
@@ -62,7 +62,7 @@ void aggregateFragment(uint index, float depth, uint payload, float alpha, vec3 
 }
 
 // Lists of colours have the fibre's colour in them already.
-#if defined(FLK_CAPTURE_FORWARD) || defined(FLK_CAPTURE_DISPLAY)
+#ifdef FLK_CAPTURE_COLORS
 const bool kColorWord = false;
 #else
 const bool kColorWord = kColor;

@@ -1,9 +1,11 @@
-// Shadow maps without a rasteriser: quads are walked as in capture.comp; the least depth of a texel by an atomic (positive floats sort as integers).
+// Shadow maps without a rasteriser: quads are walked as in capture.comp, and a texel keeps the least depth by an atomic (positive floats
+// sort as integers).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define FLK_BIND_HAIR
 #define FLK_BIND_SHADOW_STORE
 #include "bindings.glsl"
+#include "../shared/walk.h"
 layout(local_size_x = FLK_WALK_LANES) in;
 #include "map_segment.glsl"
 #include "walk.glsl"
@@ -35,8 +37,7 @@ void main() {
     for (int i = 0; i < count; ++i) {
       ivec2 texel = first + (columns ? ivec2(0, i) : ivec2(i, 0));
       float value;
-      if (!mapDepth(of, vec2(texel) + 0.5 - middle, value)) continue;
-      imageAtomicMin(shadow_store, corner + texel, floatBitsToUint(value));
+      if (mapDepth(of, vec2(texel) + 0.5 - middle, value)) imageAtomicMin(shadow_store, corner + texel, floatBitsToUint(value));
     }
   }
 }

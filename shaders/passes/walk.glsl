@@ -2,6 +2,7 @@
 // lengths hardly differ, and lanes take them in turn. Included by compute rasterisers of kWalkLanes lanes.
 #ifndef FORELOCK_PASSES_WALK
 #define FORELOCK_PASSES_WALK
+#include "../shared/walk.h"
 
 const uint kWalkLanes = uint(FLK_WALK_LANES);
 const uint kWalkSegments = FLK_WALK_SEGMENTS;

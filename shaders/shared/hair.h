@@ -16,10 +16,6 @@
 #define FLK_FRACTION_SHIFT 11
 #define FLK_HASH_SHIFT 27
 
-// Lanes of a group of the compute rasterisers, and how many segments it takes.
-#define FLK_WALK_LANES 128
-#define FLK_WALK_SEGMENTS 16u
-
 #ifdef __cplusplus
 namespace forelock::gpu {
 #endif

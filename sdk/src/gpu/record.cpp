@@ -1,5 +1,6 @@
 // flkCmdRender: the plan's passes and the barriers between them.
 #include "gpu/view.h"
+#include "shared/walk.h"
 
 #include <cstddef>
 

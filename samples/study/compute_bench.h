@@ -16,7 +16,7 @@ namespace forelock::study {
   X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) X(vkAllocateMemory) X(vkFreeMemory)            \
       X(vkCreateShaderModule) X(vkDestroyShaderModule) X(vkCreateDescriptorSetLayout) X(vkDestroyDescriptorSetLayout)      \
           X(vkCreatePipelineLayout) X(vkDestroyPipelineLayout) X(vkCreateComputePipelines) X(vkDestroyPipeline)            \
-              X(vkCreateDescriptorPool) X(vkDestroyDescriptorPool) X(vkAllocateDescriptorSets) X(vkUpdateDescriptorSets)   \
+              X(vkCreateSampler) X(vkDestroySampler) X(vkCreateDescriptorPool) X(vkDestroyDescriptorPool) X(vkAllocateDescriptorSets) X(vkUpdateDescriptorSets)   \
                   X(vkCmdBindPipeline) X(vkCmdBindDescriptorSets) X(vkCmdPushConstants) X(vkCmdDispatch) X(vkCmdCopyBuffer) \
                       X(vkCmdFillBuffer) X(vkCmdUpdateBuffer) X(vkCmdPipelineBarrier2) X(vkGetBufferDeviceAddress)
 
@@ -38,7 +38,8 @@ protected:
   struct Binding {
     uint32_t index;
     VkBuffer buffer;    // or
-    VkImageView image;  // in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+    VkImageView image;  // in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, read as nearest, clamped to the edge
+    bool uniform = false;  // the buffer is bound as a uniform buffer
   };
   // Device memory.
   VkBuffer makeBuffer(VkDeviceSize size);
@@ -59,6 +60,8 @@ protected:
   BenchFunctions fn_;
 
 private:
+  static VkDescriptorType typeOf(const Binding& binding);
+
   VkDevice device_ = VK_NULL_HANDLE;
   VkPhysicalDeviceMemoryProperties memory_{};
   VkBuffer buffers_[3] = {};
@@ -68,6 +71,7 @@ private:
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkShaderModule module_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
+  VkSampler sampler_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };

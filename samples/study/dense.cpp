@@ -113,7 +113,7 @@ public:
     write(constants, std::as_bytes(std::span(&values, 1)));
     write(fragments, std::as_bytes(std::span(held)));
     makePipeline(dense_spv, sizeof(uint32_t),
-                 {{0, constants, VK_NULL_HANDLE}, {1, results, VK_NULL_HANDLE}, {2, fragments, VK_NULL_HANDLE}, {4, VK_NULL_HANDLE, map.view}});
+                 {{0, constants, VK_NULL_HANDLE, true}, {1, results, VK_NULL_HANDLE}, {2, fragments, VK_NULL_HANDLE}, {4, VK_NULL_HANDLE, map.view}});
     const auto count = uint32_t(held.size()), groups = (count + 63) / 64;
     const double s = secondsOfOne(
         [&](VkCommandBuffer cmd) { dispatch(cmd, &count, std::min(groups, kRow), (groups + kRow - 1) / kRow); }, onProcessor() ? 3 : 7);

@@ -52,9 +52,12 @@ vec3 shadeFull(HairConstants hair, vec3 fibre, vec3 T, vec3 L, vec3 V, vec3 ligh
                   hair.specular_trt * fibre * lobe(s.trt.x, s.trt.y, hair.exponent_trt));
 }
 
+// Share of a light that a strand scatters all round; as of a direction across it where T is none.
+float diffuseShare(vec3 T, vec3 L) { return isDirection(T) ? min(length(cross(T, L)), 1.0) : 1.0; }
+
 // Diffuse, and with `mean_lobes` what the lobes give on average.
 vec3 shadeLow(HairConstants hair, vec3 fibre, vec3 T, vec3 L, vec3 light, bool mean_lobes) {
-  float sine = isDirection(T) ? min(length(cross(T, L)), 1.0) : 1.0;
+  float sine = diffuseShare(T, L);
   vec3 lobes = mean_lobes ? hair.mean_r + hair.mean_trt * fibre : vec3(0.0);
   return light * (hair.diffuse * fibre * sine + lobes);
 }

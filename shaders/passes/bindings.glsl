@@ -9,12 +9,18 @@
 #include "../shared/hair.h"
 #include "../shared/light.h"
 
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { FrameConstants frame; };
+// A uniform buffer: capture and shadow passes need a quarter fewer registers with it. With FLK_FRAME_STORED the same as a storage buffer, for
+// loops that read it all the time and have registers for it (docs/results.md).
+#ifdef FLK_FRAME_STORED
+layout(set = 0, binding = 9, scalar) readonly buffer FrameBuffer { FrameConstants frame; };
+#else
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { FrameConstants frame; };
+#endif
 #ifdef FLK_BIND_LISTS
 // Heads; for FLK_METHOD_HARD depths, payloads and (with colours) colours of the nearest fragments, plane after plane.
 layout(set = 0, binding = 1, scalar) buffer HeadBuffer { uint heads[]; };
 layout(set = 0, binding = 2, scalar) buffer CounterBuffer { uint counters[FLK_COUNTER_WORDS]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) buffer NodePool { uvec2 at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer NodeKeys { uvec2 at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer NodeWords { uint at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AggregatePool { uint words[]; };
 #endif
@@ -22,7 +28,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AggregatePoo
 layout(set = 0, binding = 3) uniform texture2D host_depth;
 #endif
 #ifdef FLK_BIND_SHADOW
-layout(set = 0, binding = 4) uniform texture2D shadow_map;
+layout(set = 0, binding = 4) uniform sampler2D shadow_map;  // nearest, clamped to the edge
 #endif
 #ifdef FLK_BIND_TARGET
 layout(set = 0, binding = 5, rgba16f) uniform image2D target;

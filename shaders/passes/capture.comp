@@ -76,6 +76,15 @@ Column columnOf(uint task, int done, ivec4 rect) {
   return column;
 }
 
+// What a quad adds to the tiles that its axis runs through, a tile's length at a time.
+void countWalk(QuadWalk walk) {
+  for (int cut = 0; cut < walk.count; cut += int(FLK_TILE)) {
+    int cuts = min(walk.count - cut, int(FLK_TILE));
+    float along = float(walk.first + cut) + 0.5 * float(cuts), across = walk.start + (float(cut) + 0.5 * float(cuts)) * walk.slope;
+    countTile(walk.columns ? vec2(along, across) : vec2(across, along), uint(cuts));
+  }
+}
+
 bool captureNext(inout Column column, bool live, out Captured kept) {
   bool keeps = captureFragment(column.shape, column.facts, column.colors, column.pixel, column.at, live, kept);
   column.pixel += column.step;
@@ -101,6 +110,11 @@ void main() {
   if (lane == 0u) queued = 0u, lanes_left = 0u;
 #endif
   uint total = shareWalks(walk);
+  if (kStore == FLK_STORE_LISTS) {
+    uint from_last = kWalkLanes - 1u - lane;
+    if (from_last < kWalkSegments) countWalk(walks[from_last]);
+    if (from_last == 0u && total > 0u) countTiles(total);
+  }
   uint task = lane;
   int done = 0;  // pixels of the task
   if (kHard || kStore == FLK_STORE_COUNT) {
@@ -140,7 +154,10 @@ void main() {
     if (lane == 0u && waiting > 0u) queue_base = countFragments(waiting);
     barrier();
     if (lane == 0u) queued = 0u, lanes_left = 0u;
-    for (uint at = lane; at < waiting; at += kWalkLanes) storeCaptured(dequeue(at), queue_base + at);
+    for (uint at = lane; at < waiting; at += kWalkLanes) {
+      Captured c = dequeue(at);
+      storeCaptured(c, queue_base + at, linkFragment(c.pixel, queue_base + at));
+    }
     barrier();
   } while (more);
   addWork();
@@ -150,21 +167,23 @@ void main() {
     Column column = columnOf(min(task, total - 1u), done, rect);  // the ballot has found a task
     if (task >= total) column.left = 0;
     Captured kept[kSteps];
-    uint slots[kSteps];
+    uint numbers[kSteps], links[kSteps];
     uint waiting = 0u;
     // Past the column's end as well, where nothing is kept: without branches all of them are under way at once.
     bool keeps[kSteps];
     [[unroll]] for (int i = 0; i < kSteps; ++i) keeps[i] = captureNext(column, i < column.left, kept[i]);
     [[unroll]] for (int i = 0; i < kSteps; ++i) {
       uvec4 keepers = subgroupBallot(keeps[i]);
-      slots[i] = keeps[i] ? waiting + subgroupBallotExclusiveBitCount(keepers) : 0xFFFFFFFFu;
+      numbers[i] = waiting + subgroupBallotExclusiveBitCount(keepers);
       waiting += subgroupBallotBitCount(keepers);
     }
     uint base = 0u;
     if (subgroupElect() && waiting > 0u) base = countFragments(waiting);
     base = subgroupBroadcastFirst(base);
     [[unroll]] for (int i = 0; i < kSteps; ++i)
-      if (slots[i] != 0xFFFFFFFFu) storeCaptured(kept[i], base + slots[i]);
+      if (keeps[i]) links[i] = linkFragment(kept[i].pixel, base + numbers[i]);
+    [[unroll]] for (int i = 0; i < kSteps; ++i)
+      if (keeps[i]) storeCaptured(kept[i], base + numbers[i], links[i]);
     done += kSteps;
     if (column.left <= kSteps) task += kWalkLanes, done = 0;
   }

@@ -21,7 +21,7 @@ void main() {
   if (!captureFragment(shape, facts, colors, pixel, gl_FragCoord.xy, !gl_HelperInvocation, kept)) return;
   uint index = countFragment();
   if (kStore == FLK_STORE_COUNT) return;
-  storeCaptured(kept, index);
+  storeCaptured(kept, index, linkFragment(kept.pixel, index));
 #ifdef FLK_CAPTURE_FORWARD
   addWork();
 #endif

@@ -89,16 +89,16 @@ bool captureFragment(SegmentShape shape, QuadFacts facts, FibreColors colors, uv
   return keeps;
 }
 
-// index: a number of its own for every fragment.
-void storeCaptured(Captured c, uint index) {
+// index: a number of its own for every fragment; link: of linkFragment().
+void storeCaptured(Captured c, uint index, uint link) {
 #if defined(FLK_CAPTURE_FORWARD)
   vec3 fibre = kColor ? c.color : frame.hairs[hair_slot].color;
   vec3 color = radianceFull(frame.hairs[hair_slot], fibre, frameLight(c.pixel), c.tangent, pixelRay(vec2(c.pixel) + 0.5), c.depth, c.pixel);
-  storeFragment(c.pixel, c.depth, index, packColor(color, alphaCode(c.alpha), frame.color_range, kPayload), 0u, c.alpha, color);
+  storeFragment(c.pixel, c.depth, index, link, packColor(color, alphaCode(c.alpha), frame.color_range, kPayload), 0u, c.alpha, color);
 #elif defined(FLK_CAPTURE_DISPLAY)
-  storeFragment(c.pixel, c.depth, index, packColor(c.color, alphaCode(c.alpha), frame.color_range, FLK_CODING_DEFAULT), 0u, c.alpha, c.color);
+  storeFragment(c.pixel, c.depth, index, link, packColor(c.color, alphaCode(c.alpha), frame.color_range, FLK_CODING_DEFAULT), 0u, c.alpha, c.color);
 #else
-  storeFragment(c.pixel, c.depth, index, c.payload, c.color, c.alpha, vec3(0.0));
+  storeFragment(c.pixel, c.depth, index, link, c.payload, c.color, c.alpha, vec3(0.0));
 #endif
 }
 

@@ -31,6 +31,18 @@ uint countFragment() {
   return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(here);
 }
 
+// cuts: of a quad, through `pixel` of the target, which may lie beside the rectangle.
+void countTile(vec2 pixel, uint cuts) {
+  uvec2 size = frame.rect.zw, tiles = (size + FLK_TILE - 1u) / FLK_TILE;
+  uvec2 tile = uvec2(clamp(pixel - vec2(frame.rect.xy), vec2(0.0), vec2(size - 1u))) / FLK_TILE;
+  atomicAdd(heads[size.x * size.y + tile.y * tiles.x + tile.x], ~cuts + 1u);
+}
+
+void countTiles(uint cuts) {
+  uvec2 size = frame.rect.zw, tiles = (size + FLK_TILE - 1u) / FLK_TILE;
+  atomicAdd(heads[size.x * size.y + tiles.x * tiles.y], ~cuts + 1u);
+}
+
 uint pixelIndex(uvec2 pixel) {
   uvec2 p = pixel - frame.rect.xy;
   return p.y * frame.rect.z + p.x;
@@ -68,17 +80,22 @@ const bool kColorWord = false;
 const bool kColorWord = kColor;
 #endif
 
-// One fragment into the list of its pixel (Yang et al. 2010). The head changes only where there is a node to name: full lists keep
-// what they hold.
-void storeFragment(uvec2 pixel, float depth, uint index, uint payload, uint fibre_color, float alpha, vec3 color) {
-  uint at = pixelIndex(pixel);
+// One fragment into the list of its pixel (Yang et al. 2010), in two steps, so that a lane may have many exchanges under way. The head
+// changes only where there is a node to name: full lists keep what they hold. index: a number of its own for every fragment.
+uint linkFragment(uvec2 pixel, uint index) {
+  if (index >= frame.node_capacity) return FLK_LINK_END;
+  return atomicExchange(heads[pixelIndex(pixel)], hair_slot << FLK_LINK_SLOT_SHIFT | index);
+}
+
+// link: of linkFragment().
+void storeFragment(uvec2 pixel, float depth, uint index, uint link, uint payload, uint fibre_color, float alpha, vec3 color) {
   if (index >= frame.node_capacity) {
-    if (kAggregate) aggregateFragment(at, depth, payload, alpha, color);
+    if (kAggregate) aggregateFragment(pixelIndex(pixel), depth, payload, alpha, color);
     return;
   }
-  NodePool(frame.node_keys).at[index] = uvec2(floatBitsToUint(depth), payload);
+  NodeKeys(frame.nodes).at[FLK_NODE_KEY(index)] = uvec2(floatBitsToUint(depth), payload);
   if (kColorWord) NodeWords(frame.node_colors).at[index] = fibre_color;
-  NodeWords(frame.node_links).at[index] = atomicExchange(heads[at], hair_slot << FLK_LINK_SLOT_SHIFT | index);
+  NodeWords(frame.nodes).at[FLK_NODE_LINK(index)] = link;
 }
 
 // FLK_METHOD_HARD, in two passes over the strands: the least depth of a pixel, then the least key at that depth. No order of

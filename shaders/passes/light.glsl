@@ -236,6 +236,8 @@ vec3 radianceLow(HairConstants hair, vec3 fibre, FrameLight source, vec3 tangent
   vec3 around = ambientOn(tangent, source.ambient) * hair.diffuse * fibre;
   if (kLights != FLK_LIGHTS_SUN) return around + radianceOfLights(hair, fibre, source, tangent, ray, depth, pixel, false);
   float light = sunShadow(hair, source, tangent, ray, depth, false);
+  // The same as shadeLight(), with what all fragments of a hair share multiplied first.
+  if (kLowShade == FLK_LOW_PLAIN) return around + light * diffuseShare(tangent, source.direction) * (source.radiance * hair.diffuse * fibre);
   return around + shadeLight(hair, fibre, tangent, source.direction, ray.to_eye, light * source.radiance, false);
 }
 

@@ -12,8 +12,8 @@ layout(constant_id = FLK_SPEC_COLOR) const bool kColor = false;
 // The fragment that a link names; link becomes the next.
 Key readNode(inout uint link) {
   uint index = link & FLK_LINK_INDEX_MASK, slot = link >> FLK_LINK_SLOT_SHIFT;
-  link = NodeWords(frame.node_links).at[index];
-  uvec2 held = NodePool(frame.node_keys).at[index];
+  link = NodeWords(frame.nodes).at[FLK_NODE_LINK(index)];
+  uvec2 held = NodeKeys(frame.nodes).at[FLK_NODE_KEY(index)];
   return Key(held.x, held.y, kOneHair ? 0u : slot, kColor ? NodeWords(frame.node_colors).at[index] : 0u);
 }
 
@@ -26,6 +26,8 @@ struct Aggregate {
   float count;
   vec3 color;        // in lists of colours
 };
+
+bool hasAggregate(uint pixel) { return kAggregate && AggregatePool(frame.aggregates).words[pixel * FLK_AGGREGATE_WORDS] != 0u; }
 
 Aggregate readAggregate(uint pixel, bool colors) {
   Aggregate a = Aggregate(0.0, 0.0, 0.0, 0u, vec3(0.0), 1.0, vec3(0.0));

@@ -26,20 +26,20 @@ layout(set = 0, binding = 5, r32f) writeonly uniform image2D picture;
 
 void main() {
   uvec2 pixel;
-  if (!tilePixel(frame.rect.zw, pixel)) return;
-  uint index = pixel.y * frame.rect.z + pixel.x;
+  uint index, link;
+  if (!tilePixel(pixel, index, link)) return;
   float least = 3.4e38, greatest = 0.0, transmittance = 1.0;
   uint slot = 0u;
   if (kStore == FLK_STORE_HARD_PAYLOAD) {
-    if (heads[index] == kDepthNone) return;
-    least = greatest = uintBitsToFloat(heads[index]);
+    if (link == kDepthNone) return;
+    least = greatest = uintBitsToFloat(link);  // that method's heads are depths
     transmittance = 0.0;
     slot = min(heads[frame.rect.z * frame.rect.w + index] >> 26, FLK_MAX_HAIRS - 1u);
   } else {
     Key front = keyNone();
     uint tau = 0u;  // integers: the same whatever the order of the list
     bool opaque = false;
-    for (uint link = heads[index]; link != FLK_LINK_END;) {
+    while (link != FLK_LINK_END) {
       Key key = readNode(link);
       if (keyLess(key, front, kOneHair, kColor)) front = key;
       greatest = max(greatest, uintBitsToFloat(key.depth));

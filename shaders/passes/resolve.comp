@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#define FLK_FRAME_STORED
 #define FLK_BIND_LISTS
 #define FLK_BIND_TARGET
 #include "bindings.glsl"
@@ -58,11 +59,9 @@ void tailKey(inout Tail tail, inout Key front, Key key, Key other, ShadeSource s
 
 void main() {
   uvec2 pixel;
-  if (!tilePixel(frame.rect.zw, pixel)) return;
-  uint index = pixel.y * frame.rect.z + pixel.x;
-  uint link = heads[index];
-  Aggregate rest = readAggregate(index, kColors);
-  if (link == FLK_LINK_END && !(rest.tau > 0.0)) return;
+  uint index, link;
+  if (!tilePixel(pixel, index, link)) return;
+  if (link == FLK_LINK_END && !hasAggregate(index)) return;
   ShadeSource source = shadeSource(pixel + frame.rect.xy);
 
   Key core[kSort];
@@ -92,6 +91,7 @@ void main() {
   }
   vec3 color_sum = vec3(0.0);
   float transmittance = 1.0;
+  Aggregate rest = readAggregate(index, kColors);  // not before: it would be carried through the walk
   Slab slab = slabOf(rest);
 #ifndef FLK_FORWARD
   if (rest.tau > 0.0) shadeSlab(slab, rest, source, kFull > 0u);

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#define FLK_FRAME_STORED
 #define FLK_BIND_LISTS
 #define FLK_BIND_TARGET
 #include "bindings.glsl"
@@ -19,9 +20,8 @@ const uint kBatch = 24;
 
 void main() {
   uvec2 pixel;
-  if (!tilePixel(frame.rect.zw, pixel)) return;
-  uint index = pixel.y * frame.rect.z + pixel.x;
-  uint head = heads[index];
+  uint index, head;
+  if (!tilePixel(pixel, index, head)) return;
   Aggregate rest = readAggregate(index, false);
   if (head == FLK_LINK_END && !(rest.tau > 0.0)) return;
   ShadeSource source = shadeSource(pixel + frame.rect.xy);

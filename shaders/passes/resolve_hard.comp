@@ -15,9 +15,9 @@
 
 void main() {
   uvec2 pixel;
-  if (!tilePixel(frame.rect.zw, pixel)) return;
-  uint index = pixel.y * frame.rect.z + pixel.x, plane = frame.rect.z * frame.rect.w;
-  uint depth = heads[index];
+  uint index, depth;
+  if (!tilePixel(pixel, index, depth)) return;
+  uint plane = frame.rect.z * frame.rect.w;
   if (depth == kDepthNone) return;
   uint key = heads[plane + index];
   vec3 color = shadeTangent(min(key >> 26, FLK_MAX_HAIRS - 1u), octDecode(key, 13), uintBitsToFloat(depth),

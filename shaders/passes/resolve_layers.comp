@@ -11,9 +11,9 @@
 
 void main() {
   uvec2 pixel;
-  if (!tilePixel(frame.rect.zw, pixel)) return;
-  uint index = pixel.y * frame.rect.z + pixel.x;
+  uint index, link;
+  if (!tilePixel(pixel, index, link)) return;
   uint count = kAggregate ? AggregatePool(frame.aggregates).words[index * FLK_AGGREGATE_WORDS + 3u] : 0u;
-  for (uint link = heads[index]; link != FLK_LINK_END; readNode(link)) ++count;
+  for (; link != FLK_LINK_END; readNode(link)) ++count;
   if (count > 0u) compositePixel(pixel, layersColor(count), 0.0);
 }

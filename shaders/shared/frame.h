@@ -1,4 +1,4 @@
-// What every pass of a frame reads: one storage buffer, written once a frame.
+// What every pass of a frame reads: one uniform buffer (at most 16384 bytes, what every device binds), written once a frame.
 #ifndef FORELOCK_SHARED_FRAME_H
 #define FORELOCK_SHARED_FRAME_H
 #include "types.h"
@@ -47,9 +47,8 @@ struct FrameConstants {
   vec2 size;            // pixels of the target
   vec2 pixels_per_unit; // |P00| W / 2, |P11| H / 2
   uvec4 rect;           // x, y, width, height in pixels: where heads exist
-  uvec2 node_keys;      // device addresses (a storage buffer binding may be limited to 128 MiB): depth and payload of every node,
-  uvec2 node_links;     // what follows it,
-  uvec2 node_colors;    // and its fibre's colour
+  uvec2 nodes;          // device addresses (a storage buffer binding may be limited to 128 MiB) of all nodes: shared/node.h,
+  uvec2 node_colors;    // and of their fibres' colours
   uvec2 aggregates;     // device address of FLK_AGGREGATE_WORDS a pixel of the rectangle
   uint node_capacity;
   float color_range;    // of 8-bit colours: the radiance that codes as 1
@@ -70,7 +69,8 @@ struct FrameConstants {
 #ifdef __cplusplus
 static_assert(sizeof(HairConstants) == 172);
 static_assert(sizeof(OpacityModifier) == 24);
-static_assert(sizeof(FrameConstants) == 336 + FLK_MAX_HAIRS * sizeof(HairConstants));
+static_assert(sizeof(FrameConstants) == 328 + FLK_MAX_HAIRS * sizeof(HairConstants));
+static_assert(sizeof(FrameConstants) <= 16384, "the least that maxUniformBufferRange may be");
 }  // namespace forelock::gpu
 #endif
 #endif

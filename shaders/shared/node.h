@@ -1,5 +1,6 @@
-// Fragment lists: one head a pixel of the hair's rectangle, nodes in one pool. All keys (depth, payload) come first, then all links,
-// then all colours where the frame has them: two aligned reads a node, where three words together would take three.
+// Fragment lists: one head a pixel of the hair's rectangle, nodes in one pool. Two nodes share 24 bytes: key (depth, payload), link,
+// link, key. So a node is two aligned reads, which lie in one 32-byte sector of a cache more often than not: neither three words together
+// (three reads) nor keys and links apart (two sectors) has both. Colours, where the frame has them, follow all nodes.
 #ifndef FORELOCK_SHARED_NODE_H
 #define FORELOCK_SHARED_NODE_H
 
@@ -8,6 +9,8 @@
 #define FLK_LINK_INDEX_MASK 0x03FFFFFFu
 #define FLK_LINK_END 0xFFFFFFFFu
 #define FLK_MAX_HAIRS 63u
+#define FLK_NODE_KEY(index) ((3u * (index) + 1u) >> 1u)                   // in units of two words
+#define FLK_NODE_LINK(index) (3u * (index) + 2u - 2u * ((index) & 1u))    // in words
 #define FLK_COUNT_SATURATED 0xF0000000u
 
 // Aggregate of a pixel's fragments that found the lists full, all words 0 where there are none. Optical depth tau = -log2(1 - a), at
@@ -24,6 +27,11 @@
 #define FLK_NEAREST_TANGENT_BITS 7
 #define FLK_NEAREST_TANGENT_SHIFT 6
 #define FLK_SLOT_BITS 63u
+
+// Frames by compute: behind the heads lies a word for each tile of FLK_TILE x FLK_TILE pixels, row after row, and one for all of them: how
+// much capture has drawn there, counted down from FLK_LINK_END, so that what empties the heads empties them too.
+#define FLK_TILE 8u
+#define FLK_LONG_TILE 2.0  // times the mean: such a tile's lists are long
 
 // Counters: fragments, then what FLK_SPEC_COUNT_WORK counts.
 #define FLK_COUNTER_FULL 1
@@ -52,7 +60,10 @@
 #define FLK_SPEC_COLORS_LISTED 16 // 1: the lists hold colours (output passes)
 #define FLK_SPEC_TAPS 17     // shadow map reads of a full shade: 1, 4, 9, 25
 #define FLK_SPEC_LOW_SHADE 18 // FLK_LOW_SHADE_...
-#define FLK_SPEC_COUNT 19
+#define FLK_SPEC_LONG_FIRST 19 // 1: tiles with long lists are resolved before the others
+#define FLK_SPEC_COUNT 20
+
+#define FLK_CLEAR_SIDE 32u // texels of a shadow map that a group of the clear pass empties, along either axis
 
 #define FLK_STORE_LISTS 0
 #define FLK_STORE_COUNT 1        // nothing is stored

@@ -46,6 +46,7 @@ namespace forelock {
   X(vkCreateImageView)            \
   X(vkCreatePipelineLayout)       \
   X(vkCreateQueryPool)            \
+  X(vkCreateSampler)              \
   X(vkCreateShaderModule)         \
   X(vkDestroyBuffer)              \
   X(vkDestroyDescriptorPool)      \
@@ -55,6 +56,7 @@ namespace forelock {
   X(vkDestroyPipeline)            \
   X(vkDestroyPipelineLayout)      \
   X(vkDestroyQueryPool)           \
+  X(vkDestroySampler)             \
   X(vkDestroyShaderModule)        \
   X(vkFreeDescriptorSets)         \
   X(vkFreeMemory)                 \

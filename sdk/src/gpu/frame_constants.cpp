@@ -195,8 +195,7 @@ void fillConstants(Frame& frame, const FlkFrame& asked, const Camera& camera, co
                        float(std::abs(camera.scale[1]) * camera.height / 2)};
   c.rect = {plan.rect.x, plan.rect.y, plan.rect.width, plan.rect.height};
   c.node_capacity = uint32_t(plan.node_capacity);
-  c.node_keys = toAddress(frame.node_address);
-  c.node_links = toAddress(frame.node_address + 8 * plan.node_capacity);
+  c.nodes = toAddress(frame.node_address);
   c.node_colors = toAddress(frame.node_address + 12 * plan.node_capacity);
   c.aggregates = toAddress(frame.aggregate_address);
   c.depth_range = {float(std::max(plan.nearest, camera.near_plane)), float(plan.farthest)};

@@ -17,17 +17,19 @@ struct BindingKind {
 };
 
 constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kImage = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
-                           kStore = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+                           kUniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                           kStore = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 constexpr BindingKind kBindings[kBindingCount] = {
-    {kBuffer, kVertex | kFragment | kCompute},
+    {kUniform, kVertex | kFragment | kCompute},
     {kBuffer, kFragment | kCompute},
     {kBuffer, kFragment | kCompute},
     {kImage, kFragment | kCompute},
-    {kImage, kFragment | kCompute},
+    {kSampled, kFragment | kCompute},
     {kStore, kCompute},
     {kImage, kFragment | kCompute},
     {kImage, kFragment | kCompute},
     {kStore, kCompute},
+    {kBuffer, kCompute},
 };
 
 VkResult createShader(Device& device, std::span<const uint32_t> code, VkShaderModule& module) {
@@ -116,14 +118,19 @@ VkDescriptorType bindingType(uint32_t binding) { return kBindings[binding].type;
 
 FlkResult Pipelines::init(Device& device) {
   if (device.planning()) return FLK_SUCCESS;
+  VkSamplerCreateInfo sampler_info{};  // nearest
+  sampler_info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+  sampler_info.addressModeU = sampler_info.addressModeV = sampler_info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  VkResult result = device.fn.vkCreateSampler(device.device, &sampler_info, nullptr, &shadow_sampler_);
+  if (result != VK_SUCCESS) return shadow_sampler_ = VK_NULL_HANDLE, toResult(result);
   VkDescriptorSetLayoutBinding bindings[kBindingCount]{};
-  for (uint32_t i = 0; i < kBindingCount; ++i) bindings[i] = {i, kBindings[i].type, 1, kBindings[i].stages, nullptr};
+  for (uint32_t i = 0; i < kBindingCount; ++i) bindings[i] = {i, kBindings[i].type, 1, kBindings[i].stages, kBindings[i].type == kSampled ? &shadow_sampler_ : nullptr};
   VkDescriptorSetLayoutCreateInfo set_info{};
   set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   set_info.bindingCount = kBindingCount;
   set_info.pBindings = bindings;
-  VkResult result = device.fn.vkCreateDescriptorSetLayout(device.device, &set_info, nullptr, &view_set);
-  if (result != VK_SUCCESS) return view_set = VK_NULL_HANDLE, toResult(result);
+  result = device.fn.vkCreateDescriptorSetLayout(device.device, &set_info, nullptr, &view_set);
+  if (result != VK_SUCCESS) return view_set = VK_NULL_HANDLE, destroy(device), toResult(result);
   const VkPushConstantRange range{kPushStages, 0, kPushBytes};
   VkPipelineLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
@@ -142,8 +149,10 @@ void Pipelines::destroy(Device& device) {
   cache_.clear();
   if (layout) device.fn.vkDestroyPipelineLayout(device.device, layout, nullptr);
   if (view_set) device.fn.vkDestroyDescriptorSetLayout(device.device, view_set, nullptr);
+  if (shadow_sampler_) device.fn.vkDestroySampler(device.device, shadow_sampler_, nullptr);
   layout = VK_NULL_HANDLE;
   view_set = VK_NULL_HANDLE;
+  shadow_sampler_ = VK_NULL_HANDLE;
 }
 
 FlkResult Pipelines::get(Device& device, const Recipe& recipe, VkPipeline& pipeline, uint64_t& hash) {

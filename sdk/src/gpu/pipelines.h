@@ -20,6 +20,7 @@ enum Binding : uint32_t {
   kBindHostShadowMaps,
   kBindHostVisibility,
   kBindShadowStore,
+  kBindFrameStored,  // of kBindFrame's buffer
   kBindingCount
 };
 VkDescriptorType bindingType(uint32_t binding);
@@ -49,6 +50,7 @@ private:
     uint64_t hash;
   };
   std::pmr::vector<Entry> cache_;
+  VkSampler shadow_sampler_ = VK_NULL_HANDLE;  // nearest, clamped to the edge; a part of the set layout
 };
 
 }  // namespace forelock

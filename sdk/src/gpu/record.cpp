@@ -234,7 +234,7 @@ void View::recordClear(VkCommandBuffer cmd, const Frame& frame, VkPipeline pipel
   before.add(memoryBarrier(shaders | kTransfer, kStorageWrite | kTransferWrite, kTransfer | (pipeline ? kCompute : 0),
                            kTransferWrite | (pipeline ? kStorageWrite : 0)));
   Barriers ready;
-  ready.add(memoryBarrier(kTransfer, kTransferWrite, shaders, kStorageRead | kStorageWrite));
+  ready.add(memoryBarrier(kTransfer, kTransferWrite, shaders, VK_ACCESS_2_UNIFORM_READ_BIT | kStorageRead | kStorageWrite));
   if (pipeline) {
     const Image& map = frame.shadow_map;
     before.add(imageBarrier(map.handle, mapRange(map), {VK_IMAGE_LAYOUT_UNDEFINED, shaders, 0}, kStorageInside)).record(fn, cmd);

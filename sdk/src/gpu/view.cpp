@@ -12,6 +12,7 @@ constexpr uint64_t kCountBytes = FLK_COUNTER_WORDS * 4;  // of the read-back buf
 constexpr uint32_t kSmallFrames = 8;                     // before memory twice too large is given back
 constexpr VkBufferUsageFlags kBound =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+constexpr VkBufferUsageFlags kConstant = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 constexpr VkBufferUsageFlags kAddressed = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
 LightFacts lightFacts(const FlkLight& light) {
@@ -158,7 +159,7 @@ FlkResult View::follow(Buffer& buffer, uint32_t& small_frames, uint64_t bytes, V
 
 FlkResult View::ensureMemory(const FramePlan& plan) {
   FlkResult result = FLK_SUCCESS;
-  if (!constants_.size) result = replace(constants_, plan.bytes(ResourceId::constants), kBound, "constants");
+  if (!constants_.size) result = replace(constants_, plan.bytes(ResourceId::constants), kConstant, "constants");
   if (result == FLK_SUCCESS && !counters_.size) result = replace(counters_, plan.bytes(ResourceId::counters), kBound, "counters");
   if (result == FLK_SUCCESS && lights_.size != plan.bytes(ResourceId::lights))
     result = replace(lights_, plan.bytes(ResourceId::lights), kAddressed, "lights");
@@ -185,18 +186,18 @@ FlkResult View::ensureMemory(const FramePlan& plan) {
 namespace {
 
 FlkResult createSetPool(Device& device, uint32_t sets, VkDescriptorPool& pool) {
-  uint32_t counts[3] = {};
-  constexpr VkDescriptorType kTypes[3] = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
-                                          VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
-  for (uint32_t i = 0; i < kBindingCount; ++i)
-    for (int t = 0; t < 3; ++t) counts[t] += bindingType(i) == kTypes[t] ? sets : 0;
-  VkDescriptorPoolSize sizes[3];
-  for (int t = 0; t < 3; ++t) sizes[t] = {kTypes[t], counts[t]};
+  constexpr VkDescriptorType kTypes[] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+                                         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+  VkDescriptorPoolSize sizes[std::size(kTypes)];
+  for (std::size_t t = 0; t < std::size(kTypes); ++t) {
+    sizes[t] = {kTypes[t], 0};
+    for (uint32_t i = 0; i < kBindingCount; ++i) sizes[t].descriptorCount += bindingType(i) == kTypes[t] ? sets : 0;
+  }
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   info.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
   info.maxSets = sets;
-  info.poolSizeCount = 3;
+  info.poolSizeCount = uint32_t(std::size(kTypes));
   info.pPoolSizes = sizes;
   const VkResult result = device.fn.vkCreateDescriptorPool(device.device, &info, nullptr, &pool);
   if (result != VK_SUCCESS) pool = VK_NULL_HANDLE;
@@ -205,7 +206,7 @@ FlkResult createSetPool(Device& device, uint32_t sets, VkDescriptorPool& pool) {
 
 // Bindings that a frame's passes read.
 uint32_t neededBindings(const FramePlan& plan) {
-  uint32_t needed = 1u << kBindFrame | 1u << kBindHeads | 1u << kBindCounters;
+  uint32_t needed = 1u << kBindFrame | 1u << kBindFrameStored | 1u << kBindHeads | 1u << kBindCounters;
   if (plan.has_depth) needed |= 1u << kBindHostDepth;
   if (plan.hasShadow()) needed |= 1u << kBindShadowMap;
   if (plan.hasShadow() && plan.compute) needed |= 1u << kBindShadowStore;
@@ -276,7 +277,7 @@ void View::writeSet(Frame& frame, BoundSet& bound, VkImageView storage, uint32_t
   uint32_t count = 0;
   // A frame that only counts has no heads: its counters stand in for what no shader of it touches. Likewise for the one of the
   // host's two pictures that is missing.
-  buffers[kBindFrame] = {frame.constants, 0, VK_WHOLE_SIZE};
+  buffers[kBindFrame] = buffers[kBindFrameStored] = {frame.constants, 0, VK_WHOLE_SIZE};
   buffers[kBindHeads] = {frame.heads ? frame.heads : frame.counters, 0, VK_WHOLE_SIZE};
   buffers[kBindCounters] = {frame.counters, 0, VK_WHOLE_SIZE};
   const FlkSampledImage& maps = frame.host_shadow_maps.view ? frame.host_shadow_maps : frame.host_visibility;
@@ -295,7 +296,7 @@ void View::writeSet(Frame& frame, BoundSet& bound, VkImageView storage, uint32_t
     write.dstBinding = i;
     write.descriptorCount = 1;
     write.descriptorType = bindingType(i);
-    if (write.descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) write.pBufferInfo = &buffers[i];
+    if (i <= kBindCounters || i == kBindFrameStored) write.pBufferInfo = &buffers[i];
     else write.pImageInfo = &images[i];
   }
   context_.device.fn.vkUpdateDescriptorSets(context_.device.device, count, writes, 0, nullptr);

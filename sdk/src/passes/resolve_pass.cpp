@@ -13,6 +13,7 @@ Recipe resolveRecipe(const FramePlan& plan) {
   }
   // A constant that the method does not read stays 0, so that its value makes no second pipeline.
   recipe.constants[FLK_SPEC_AGGREGATE] = plan.aggregate;
+  recipe.constants[FLK_SPEC_LONG_FIRST] = plan.long_first;
   if (plan.method->resolve == ResolveKind::layers) return recipe;
   recipe.constants[FLK_SPEC_ONE_HAIR] = plan.one_hair;
   recipe.constants[FLK_SPEC_COLOR] = plan.colors;

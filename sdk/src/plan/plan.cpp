@@ -2,6 +2,7 @@
 
 #include "shared/frame.h"
 #include "shared/light.h"
+#include "shared/node.h"
 
 #include <algorithm>
 
@@ -26,10 +27,14 @@ double estimateHair(const Camera& camera, const HairFacts& hair, double nearest)
 }
 
 // 128 strips of tiles, bit-reversed: see shaders/passes/tile_order.glsl.
-Pass tilePass(PassId id, const char* name, const Rect& rect) {
-  const uint64_t tiles = uint64_t((rect.width + 7) / 8) * ((rect.height + 7) / 8);
+uint64_t tileCount(const Rect& rect) {
+  return uint64_t((rect.width + FLK_TILE - 1) / FLK_TILE) * ((rect.height + FLK_TILE - 1) / FLK_TILE);
+}
+
+// rounds: over all tiles.
+Pass tilePass(PassId id, const char* name, const Rect& rect, uint32_t rounds = 1) {
   Pass pass{id, name};
-  pass.groups[0] = uint32_t((tiles + 127) / 128), pass.groups[1] = 128, pass.groups[2] = 1;
+  pass.groups[0] = uint32_t((tileCount(rect) + 127) / 128), pass.groups[1] = 128 * rounds, pass.groups[2] = 1;
   return pass;
 }
 
@@ -80,7 +85,11 @@ void planPasses(const FrameFacts& facts, uint64_t all_segments, FramePlan& plan)
   const uint64_t pixels = uint64_t(plan.rect.width) * plan.rect.height;
   Pass clear{PassId::clear, "clear"};
   if (plan.compute && plan.hasShadow())  // of the shadow maps; buffers are filled
-    clear.groups[0] = (plan.shadow.width + 7) / 8, clear.groups[1] = (plan.shadow.height + 7) / 8, clear.groups[2] = 1;
+    {
+    clear.groups[0] = (plan.shadow.width + FLK_CLEAR_SIDE - 1) / FLK_CLEAR_SIDE;
+    clear.groups[1] = (plan.shadow.height + FLK_CLEAR_SIDE - 1) / FLK_CLEAR_SIDE;
+    clear.groups[2] = 1;
+  }
   plan.passes.add(clear);
   uint32_t moved = 0;
   for (std::size_t i = 0; i < facts.hairs.size(); ++i)
@@ -98,7 +107,7 @@ void planPasses(const FrameFacts& facts, uint64_t all_segments, FramePlan& plan)
     plan.passes.add(segmentPass(PassId::capture, "capture", plan.segments, plan.compute));
   }
   if (!plan.count_only) {
-    plan.passes.add(tilePass(PassId::resolve, "resolve", plan.rect));
+    plan.passes.add(tilePass(PassId::resolve, "resolve", plan.rect, plan.long_first ? 2 : 1));
     static constexpr const char* kNames[kOutputCount] = {"output front depth", "output transmittance", "output velocity",
                                                          "output depth range"};
     for (uint32_t i = 0; i < kOutputCount; ++i) {
@@ -118,7 +127,8 @@ void planPasses(const FrameFacts& facts, uint64_t all_segments, FramePlan& plan)
   if (light_bytes)
     plan.resources.add({ResourceId::lights, "lights", light_bytes, true, "lights, the maps of those that cast shadows, motion of hairs"});
   if (!plan.count_only && method.lists()) {
-    plan.resources.add({ResourceId::heads, "heads", pixels * 4, true, "a list head for each pixel of the hair's rectangle"});
+    plan.resources.add({ResourceId::heads, "heads", (pixels + (plan.long_first ? tileCount(plan.rect) + 1 : 0)) * 4, true,
+                        "a list head for each pixel of the hair's rectangle"});
     plan.resources.add({ResourceId::nodes, "nodes", plan.node_capacity * (plan.colors ? kColorNodeBytes : kNodeBytes), true,
                         plan.colors ? "16 bytes for each fragment, its colour included" : "12 bytes for each fragment"});
   } else if (!plan.count_only) {
@@ -217,6 +227,7 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity) {
   plan.colors = plan.fibre_colors && method.capture != CaptureKind::color;
   const bool lists = method.lists() && !plan.count_only;
   plan.node_capacity = lists ? node_capacity : 0;
+  plan.long_first = lists && plan.compute;
   plan.aggregate = lists && !facts.drop_overflow;
   plan.modifiers = facts.modifiers;
   plan.outputs = plan.count_only ? 0 : facts.outputs;

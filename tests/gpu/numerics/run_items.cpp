@@ -12,7 +12,7 @@ namespace {
 
 #define NUMERICS_FUNCTIONS(X)                                                                                         \
   X(vkCreateImage)                                                                                                    \
-  X(vkDestroyImage) X(vkCreateImageView) X(vkDestroyImageView) X(vkGetImageMemoryRequirements) X(vkBindImageMemory)   \
+  X(vkDestroyImage) X(vkCreateImageView) X(vkDestroyImageView) X(vkCreateSampler) X(vkDestroySampler) X(vkGetImageMemoryRequirements) X(vkBindImageMemory)   \
       X(vkCreateBuffer) X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) X(vkAllocateMemory) \
           X(vkFreeMemory) X(vkMapMemory) X(vkCmdPipelineBarrier2) X(vkCmdCopyBufferToImage) X(vkCreateShaderModule)   \
               X(vkDestroyShaderModule) X(vkCreateDescriptorSetLayout) X(vkDestroyDescriptorSetLayout)                 \
@@ -139,6 +139,7 @@ std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const flo
   VkImage image = VK_NULL_HANDLE;
   VkDeviceMemory image_memory = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;
+  VkSampler sampler = VK_NULL_HANDLE;
   Buffer texels;
   if (map) {
     auto info = make<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
@@ -159,6 +160,9 @@ std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const flo
     view_info.format = info.format;
     view_info.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
     check(fn.vkCreateImageView(i.device, &view_info, nullptr, &view), "vkCreateImageView");
+    auto sampler_info = make<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+    sampler_info.addressModeU = sampler_info.addressModeV = sampler_info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    check(fn.vkCreateSampler(i.device, &sampler_info, nullptr, &sampler), "vkCreateSampler");
     texels = i.makeBuffer(map->texels.size() * sizeof(float), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     std::memcpy(texels.mapped, map->texels.data(), map->texels.size() * sizeof(float));
   }
@@ -166,7 +170,7 @@ std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const flo
   const VkDescriptorSetLayoutBinding bindings[3] = {
       {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
       {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
-      {2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}};
+      {2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}};
   auto set_info = make<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
   set_info.bindingCount = map ? 3 : 2;
   set_info.pBindings = bindings;
@@ -202,7 +206,7 @@ std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const flo
   check(fn.vkCreateComputePipelines(i.device, VK_NULL_HANDLE, 1, &pipeline_info, nullptr, &pipeline),
         "vkCreateComputePipelines");
 
-  const VkDescriptorPoolSize sizes[2] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2}, {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1}};
+  const VkDescriptorPoolSize sizes[2] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1}};
   auto pool_info = make<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
   pool_info.maxSets = 1;
   pool_info.poolSizeCount = 2;
@@ -216,7 +220,7 @@ std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const flo
   VkDescriptorSet set = VK_NULL_HANDLE;
   check(fn.vkAllocateDescriptorSets(i.device, &allocate_info, &set), "vkAllocateDescriptorSets");
   const VkDescriptorBufferInfo buffers[2] = {{in.buffer, 0, VK_WHOLE_SIZE}, {out.buffer, 0, VK_WHOLE_SIZE}};
-  const VkDescriptorImageInfo image_info{VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  const VkDescriptorImageInfo image_info{sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   VkWriteDescriptorSet writes[2] = {};
   for (VkWriteDescriptorSet& write : writes) write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, write.dstSet = set;
   writes[0].descriptorCount = 2;
@@ -224,7 +228,7 @@ std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const flo
   writes[0].pBufferInfo = buffers;
   writes[1].dstBinding = 2;
   writes[1].descriptorCount = 1;
-  writes[1].descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+  writes[1].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
   writes[1].pImageInfo = &image_info;
   fn.vkUpdateDescriptorSets(i.device, map ? 2 : 1, writes, 0, nullptr);
 
@@ -256,6 +260,7 @@ std::vector<float> runItems(std::span<const uint32_t> spirv, std::span<const flo
   i.destroyBuffer(out);
   if (map) {
     i.destroyBuffer(texels);
+    fn.vkDestroySampler(i.device, sampler, nullptr);
     fn.vkDestroyImageView(i.device, view, nullptr);
     fn.vkDestroyImage(i.device, image, nullptr);
     fn.vkFreeMemory(i.device, image_memory, nullptr);

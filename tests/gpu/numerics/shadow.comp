@@ -6,7 +6,7 @@
 #include "items.glsl"
 #include "lib/shadow.glsl"
 
-layout(set = 0, binding = 2) uniform texture2D shadow_map;
+layout(set = 0, binding = 2) uniform sampler2D shadow_map;
 
 void main() {
   if (noItem()) return;

@@ -86,7 +86,7 @@ const std::vector<Member> kFrameMembers = [] {
   using Type = gpu::FrameConstants;
   return std::vector<Member>{
       FLK_AT(proj_scale),     FLK_AT(proj_offset),   FLK_AT(proj_depth),  FLK_AT(orthographic),    FLK_AT(near_plane),
-      FLK_AT(size),           FLK_AT(pixels_per_unit), FLK_AT(rect),      FLK_AT(node_keys),       FLK_AT(node_links),
+      FLK_AT(size),           FLK_AT(pixels_per_unit), FLK_AT(rect),      FLK_AT(nodes),
       FLK_AT(node_colors),    FLK_AT(aggregates),
       FLK_AT(node_capacity),  FLK_AT(color_range),   FLK_AT(tail_range),  FLK_AT(light_count),     FLK_AT(lights),
       FLK_AT(faces),          FLK_AT(light_tiles),   FLK_AT(light_tile_size), FLK_AT(light_tiles_x), FLK_AT(light_tiles_y),

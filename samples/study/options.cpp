@@ -108,7 +108,7 @@ void addOptions(CLI::App& program, Arguments& a) {
   program.add_option("--shadow-size", a.shadow_sizes, "Texels, even, in [64, 8192] [512,1024,2048]")->type_name("LIST");
   program.add_option("--hair-colour,--hair-color", a.colors, "dark, light [dark; --full: both]")->type_name("LIST");
   program.add_option("--lights", a.lights, "Number of lights, in [1, 3] [1; --full: 1,3]")->type_name("LIST");
-  program.add_option("--frames", o.frames, "Timed frames a row at most [41 on a GPU, 5 on a processor]")
+  program.add_option("--frames", o.frames, "Timed frames a row at most [101 on a GPU, 5 on a processor]")
       ->check(CLI::Range(2u, 10001u))->type_name("N");
   program.add_option("--device", o.device, "Part of its name [a discrete GPU, else the best there is]")->type_name("NAME");
   CLI::Option* quick = program.add_flag("--quick", a.quick, "A crop, main methods and the sweep of k: about a minute");

@@ -255,7 +255,7 @@ Drawing& Study::baseline(const Measurement& m, const Setting& s) {
 
 Times Study::timeRow(Drawing& base, Drawing& drawing) const {
   const bool cpu = onProcessor();
-  const uint32_t wanted = options_.frames ? options_.frames : cpu ? 5 : 41;
+  const uint32_t wanted = options_.frames ? options_.frames : cpu ? 5 : 101;
   // What both have drawn last says what a pair costs; a GPU is then warmed up by as many pairs as will be timed, and for long enough
   // to bring its clocks up again, which fall while references are made.
   const double pair_s = std::max(base.seconds() + drawing.seconds(), 1e-6);

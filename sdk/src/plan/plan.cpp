@@ -87,7 +87,9 @@ void planPasses(const FrameFacts& facts, uint64_t all_segments, FramePlan& plan)
   if (plan.compute && plan.hasShadow())  // of the shadow maps; buffers are filled
     {
     clear.groups[0] = (plan.shadow.width + FLK_CLEAR_SIDE - 1) / FLK_CLEAR_SIDE;
-    clear.groups[1] = (plan.shadow.height + FLK_CLEAR_SIDE - 1) / FLK_CLEAR_SIDE;
+    // Past a small map as well, where a large picture has more to empty: 16 heads a lane at most.
+    const uint64_t groups = pixels / (64 * 16) / clear.groups[0] + 1;
+    clear.groups[1] = std::max((plan.shadow.height + FLK_CLEAR_SIDE - 1) / FLK_CLEAR_SIDE, uint32_t(groups));
     clear.groups[2] = 1;
   }
   plan.passes.add(clear);

@@ -34,7 +34,7 @@ uint countFragment() {
 // cuts: of a quad, through `pixel` of the target, which may lie beside the rectangle.
 void countTile(vec2 pixel, uint cuts) {
   uvec2 size = frame.rect.zw, tiles = (size + FLK_TILE - 1u) / FLK_TILE;
-  uvec2 tile = uvec2(clamp(pixel - vec2(frame.rect.xy), vec2(0.0), vec2(size - 1u))) / FLK_TILE;
+  uvec2 tile = min(uvec2(clamp(pixel - vec2(frame.rect.xy), vec2(0.0), vec2(size - 1u))) / FLK_TILE, tiles - 1u);  // also of NaN
   atomicAdd(heads[size.x * size.y + tile.y * tiles.x + tile.x], ~cuts + 1u);
 }
 

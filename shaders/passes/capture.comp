@@ -80,7 +80,7 @@ Column columnOf(uint task, int done, ivec4 rect) {
 void countWalk(QuadWalk walk) {
   for (int cut = 0; cut < walk.count; cut += int(FLK_TILE)) {
     int cuts = min(walk.count - cut, int(FLK_TILE));
-    float along = float(walk.first + cut) + 0.5 * float(cuts), across = walk.start + (float(cut) + 0.5 * float(cuts)) * walk.slope;
+    float along = float(walk.first + cut) + 0.5 * float(cuts), across = walk.start + (float(cut) + 0.5 * float(cuts - 1)) * walk.slope;
     countTile(walk.columns ? vec2(along, across) : vec2(across, along), uint(cuts));
   }
 }

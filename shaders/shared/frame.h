@@ -1,4 +1,5 @@
-// What every pass of a frame reads: one uniform buffer (at most 16384 bytes, what every device binds), written once a frame.
+// What every pass of a frame reads: one buffer, written once a frame; bound as a uniform buffer (at most 16384 bytes, what every device
+// binds) and as a storage buffer (passes/bindings.glsl).
 #ifndef FORELOCK_SHARED_FRAME_H
 #define FORELOCK_SHARED_FRAME_H
 #include "types.h"

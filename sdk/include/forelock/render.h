@@ -414,7 +414,7 @@ typedef struct FlkFrame {
  * FLK_ERROR_UNSUPPORTED_IMAGE: target, depth or another image (the message says which field); FLK_ERROR_TOO_MANY_FRAMES:
  * frames_in_flight plans of this view have not completed; FLK_ERROR_LIMIT: target or shadow maps exceed what the device
  * draws to, or the hair covers more pixels than list heads of 4 bytes can be bound for (maxStorageBufferRange; 33 million at
- * 128 MiB); FLK_ERROR_INVALID_ARGUMENT: the message says which field; FLK_ERROR_OUT_OF_HOST_MEMORY, ..._DEVICE_MEMORY. */
+ * 128 MiB, by compute 1.5 % fewer); FLK_ERROR_INVALID_ARGUMENT: the message says which field; FLK_ERROR_OUT_OF_HOST_MEMORY, ..._DEVICE_MEMORY. */
 FLK_API FlkResult flkPlanFrame(FlkView view, const FlkFrame* frame, FlkPlan* plan);
 
 /* Records the plan: no allocation, no compilation, no file. Once a plan. Outside rendering, on a queue with compute, and with

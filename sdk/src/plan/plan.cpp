@@ -26,12 +26,11 @@ double estimateHair(const Camera& camera, const HairFacts& hair, double nearest)
   return hair.length * scale * (2 * hair.radius * scale + kMeanPixelExtent);
 }
 
-// 128 strips of tiles, bit-reversed: see shaders/passes/tile_order.glsl.
 uint64_t tileCount(const Rect& rect) {
   return uint64_t((rect.width + FLK_TILE - 1) / FLK_TILE) * ((rect.height + FLK_TILE - 1) / FLK_TILE);
 }
 
-// rounds: over all tiles.
+// 128 strips of tiles, bit-reversed: see shaders/passes/tile_order.glsl. rounds: over all tiles.
 Pass tilePass(PassId id, const char* name, const Rect& rect, uint32_t rounds = 1) {
   Pass pass{id, name};
   pass.groups[0] = uint32_t((tileCount(rect) + 127) / 128), pass.groups[1] = 128 * rounds, pass.groups[2] = 1;
@@ -84,11 +83,10 @@ void planPasses(const FrameFacts& facts, uint64_t all_segments, FramePlan& plan)
   const Method& method = *plan.method;
   const uint64_t pixels = uint64_t(plan.rect.width) * plan.rect.height;
   Pass clear{PassId::clear, "clear"};
-  if (plan.compute && plan.hasShadow())  // of the shadow maps; buffers are filled
-    {
+  if (plan.compute && plan.hasShadow()) {  // else the device fills the buffers
     clear.groups[0] = (plan.shadow.width + FLK_CLEAR_SIDE - 1) / FLK_CLEAR_SIDE;
-    // Past a small map as well, where a large picture has more to empty: 16 heads a lane at most.
-    const uint64_t groups = pixels / (64 * 16) / clear.groups[0] + 1;
+    // Past a small map as well, where a large picture has more to empty: 16 pixels a lane, within what every device dispatches.
+    const uint64_t groups = std::min<uint64_t>(pixels / (64 * 16) / clear.groups[0] + 1, 65535);
     clear.groups[1] = std::max((plan.shadow.height + FLK_CLEAR_SIDE - 1) / FLK_CLEAR_SIDE, uint32_t(groups));
     clear.groups[2] = 1;
   }
@@ -130,7 +128,8 @@ void planPasses(const FrameFacts& facts, uint64_t all_segments, FramePlan& plan)
     plan.resources.add({ResourceId::lights, "lights", light_bytes, true, "lights, the maps of those that cast shadows, motion of hairs"});
   if (!plan.count_only && method.lists()) {
     plan.resources.add({ResourceId::heads, "heads", (pixels + (plan.long_first ? tileCount(plan.rect) + 1 : 0)) * 4, true,
-                        "a list head for each pixel of the hair's rectangle"});
+                        plan.long_first ? "a list head for each pixel of the hair's rectangle, a count for each 8x8 of them"
+                                        : "a list head for each pixel of the hair's rectangle"});
     plan.resources.add({ResourceId::nodes, "nodes", plan.node_capacity * (plan.colors ? kColorNodeBytes : kNodeBytes), true,
                         plan.colors ? "16 bytes for each fragment, its colour included" : "12 bytes for each fragment"});
   } else if (!plan.count_only) {
@@ -229,7 +228,7 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity) {
   plan.colors = plan.fibre_colors && method.capture != CaptureKind::color;
   const bool lists = method.lists() && !plan.count_only;
   plan.node_capacity = lists ? node_capacity : 0;
-  plan.long_first = lists && plan.compute;
+  plan.long_first = lists && plan.compute;  // wherever capture.comp stores lists, it counts tiles
   plan.aggregate = lists && !facts.drop_overflow;
   plan.modifiers = facts.modifiers;
   plan.outputs = plan.count_only ? 0 : facts.outputs;

@@ -52,7 +52,7 @@ one run on one device. To make it again, from the build folder:
 
 **Not held: lavapipe ends the loops of a shader invocation after 65,535 rounds in all** (`LP_MAX_TGSI_LOOP_ITERATIONS` of Mesa),
 without a word. `exact` walks a pixel's list once for each 24 fragments, which reaches that at about 1230 fragments; beyond,
-the farthest are left out. A group of a computed capture reaches it when its 64 segments cover more than 4 million pixels
+the farthest are left out. A group of a computed capture reaches it when its 16 segments cover more than 8 million pixels
 together. Other methods and the rasteriser stay far from it.
 
 **G6 asks for a counter** of degenerate tangents. Findings count them, where they come from, once an asset: strands of zero length

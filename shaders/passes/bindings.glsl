@@ -19,7 +19,7 @@ layout(set = 0, binding = 0, scalar) uniform FrameBuffer { FrameConstants frame;
 #ifdef FLK_BIND_LISTS
 // Heads; for FLK_METHOD_HARD depths, payloads and (with colours) colours of the nearest fragments, plane after plane.
 layout(set = 0, binding = 1, scalar) buffer HeadBuffer { uint heads[]; };
-layout(set = 0, binding = 2, scalar) buffer CounterBuffer { uint counters[FLK_COUNTER_WORDS]; };
+layout(set = 0, binding = 2, scalar) buffer CounterBuffer { uint counters[]; };
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer NodeKeys { uvec2 at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer NodeWords { uint at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AggregatePool { uint words[]; };

@@ -19,7 +19,7 @@ void main() {
   }
   Captured kept;
   if (!captureFragment(shape, facts, colors, pixel, gl_FragCoord.xy, !gl_HelperInvocation, kept)) return;
-  uint index = countFragment();
+  uint index = kShares ? countInShares(kept.pixel) : countFragment();
   if (kStore == FLK_STORE_COUNT) return;
   storeCaptured(kept, index, linkFragment(kept.pixel, index));
 #ifdef FLK_CAPTURE_FORWARD

@@ -6,6 +6,7 @@
 
 layout(constant_id = FLK_SPEC_STORE) const int kStore = FLK_STORE_LISTS;
 layout(constant_id = FLK_SPEC_AGGREGATE) const bool kAggregate = false;
+layout(constant_id = FLK_SPEC_SHARES) const bool kShares = false;
 
 bool behindHostDepth(uvec2 pixel, float depth) {
 #ifdef FLK_BIND_DEPTH
@@ -29,6 +30,31 @@ uint countFragment() {
   uint base = 0u;
   if (subgroupElect()) base = countFragments(subgroupBallotBitCount(here));
   return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(here);
+}
+
+uint shareNodes(uint share) {
+  return kStore == FLK_STORE_LISTS ? FLK_SHARE_NODES(share, frame.node_capacity) : FLK_COUNT_SATURATED;
+}
+
+// The share that a pixel's fragments take from while it lasts: of blocks that are drawn at the same time, which are neighbours, another.
+uint shareOf(uvec2 pixel) {
+  uvec2 block = pixel / FLK_SHARE_BLOCK;
+  return (block.x + 5u * block.y) % FLK_SHARES;
+}
+
+// A number of its own for every fragment, from its block's share or else from the next that is not used up. Those are only read: a cache
+// line that nobody writes any more costs nothing. One that finds no node has a number past them all, and counters[0] counts it.
+uint countInShares(uvec2 pixel) {
+  uint home = shareOf(pixel), tried = 0u, share = home;
+  uint number = atomicAdd(counters[FLK_SHARE_COUNTER(share)], 1u);
+  while (number >= shareNodes(share) && tried < FLK_SHARES) {
+    ++tried;
+    share = (home + tried) % FLK_SHARES;
+    uint at = tried == FLK_SHARES ? 0u : FLK_SHARE_COUNTER(share);
+    number = 0xFFFFFFFFu;
+    if (tried == FLK_SHARES || counters[at] < shareNodes(share)) number = atomicAdd(counters[at], 1u);
+  }
+  return tried == FLK_SHARES ? 0xFFFFFFFFu : share * (frame.node_capacity / FLK_SHARES) + number;
 }
 
 // cuts: of a quad, through `pixel` of the target, which may lie beside the rectangle.

@@ -2,6 +2,7 @@
 // FLK_BIND_HOST_LIGHT where the host has shadows of its own. What a frame does not have is folded away by constants.
 #ifndef FORELOCK_PASSES_LIGHT
 #define FORELOCK_PASSES_LIGHT
+#extension GL_KHR_shader_subgroup_ballot : require
 
 layout(constant_id = FLK_SPEC_LIGHTS) const int kLights = FLK_LIGHTS_SUN;
 layout(constant_id = FLK_SPEC_LIGHT_KINDS) const uint kLightKinds = 1u;
@@ -11,6 +12,11 @@ layout(constant_id = FLK_SPEC_AMBIENT) const bool kAmbient = false;
 layout(constant_id = FLK_SPEC_COUNT_WORK) const bool kCountWork = false;
 layout(constant_id = FLK_SPEC_TAPS) const uint kTaps = 25u;
 layout(constant_id = FLK_SPEC_LOW_SHADE) const int kLowShade = FLK_LOW_PLAIN;
+layout(constant_id = FLK_SPEC_LOCKSTEP) const bool kLockstep = false;
+
+// For loops that are tested at their end. Where the test comes first, lavapipe (Mesa 22.3.6) runs a body once more with all lanes off, and
+// a single light would cost two; but what a body computes, it gives to lanes that have left the loop as well, so they leave together.
+bool anyLane(bool more) { return kLockstep ? subgroupBallot(more) != uvec4(0u) : more; }
 
 // What this invocation did, for kCountWork.
 uint full_shades = 0u, low_shades = 0u, shadow_taps = 0u;
@@ -187,8 +193,6 @@ vec3 radianceOfLight(uint index, HairConstants hair, vec3 fibre, vec3 tangent, v
 vec3 radianceOfLights(HairConstants hair, vec3 fibre, FrameLight source, vec3 tangent, PixelRay ray, float depth, uvec2 pixel, bool full) {
   vec3 position = ray.origin + depth * ray.step;
   vec3 sum = vec3(0.0);
-  // Loops are tested at their end: lavapipe (Mesa 22.3.6) runs a body once more, with all lanes off, where the test comes first, and a
-  // single light would cost two.
   if (kLights == FLK_LIGHTS_ALL) {
     uint i = 0u;  // there is one at least
     do {
@@ -201,7 +205,7 @@ vec3 radianceOfLights(HairConstants hair, vec3 fibre, FrameLight source, vec3 ta
         uint i = first + uint(findLSB(mask));
         if (mask != 0u && i < frame.light_count) sum += radianceOfLight(i, hair, fibre, tangent, position, ray.to_eye, pixel, full);
         mask &= mask - 1u;
-      } while (mask != 0u);
+      } while (anyLane(mask != 0u));
       first += 32u;
       if (first < frame.light_count) mask = WordList(frame.light_tiles).at[first / 32u * stride + source.tile];
     } while (first < frame.light_count);

@@ -72,7 +72,7 @@ void main() {
   Key next_a = keyNone(), next_b = keyNone();
   if (link != FLK_LINK_END) next_a = readNode(link);
   if (link != FLK_LINK_END) next_b = readNode(link);
-  while (next_a.depth != kDepthNone) {
+  do {
     Key a = next_a, b = next_b;
     next_a = next_b = keyNone();
     bool more = link != FLK_LINK_END;
@@ -84,7 +84,7 @@ void main() {
       tailKey(tail, tail_front, b, a, source);
     }
     if (more && link != FLK_LINK_END) next_b = readNode(link);
-  }
+  } while (anyLane(next_a.depth != kDepthNone));
   if (kTail == FLK_TAIL_KIND_ONCE && tail_front.depth != kDepthNone) {
     float alpha;
     addColorWide(tail, tail.tau, fragmentColor(tail_front, source, false, alpha));
@@ -96,17 +96,20 @@ void main() {
 #ifndef FLK_FORWARD
   if (rest.tau > 0.0) shadeSlab(slab, rest, source, kFull > 0u);
 #endif
-  [[dont_unroll]] for (uint i = 0; i < kSort; ++i) {
+  uint i = 0u;
+  [[dont_unroll]] do {
     // The nearest that is left moves to the front: an index that is not constant would take the array out of registers.
     Key key = core[0];
     for (uint j = 1u; j < kSort; ++j) core[j - 1u] = core[j];
-    if (key.depth == kDepthNone) break;
-    if (!kColors && rest.tau > 0.0) passSlab(slab, rest, uintBitsToFloat(key.depth), color_sum, transmittance);
-    float alpha;
-    vec3 color = fragmentColor(key, source, i < kFull, alpha);
-    color_sum += transmittance * alpha * color;
-    transmittance *= 1.0 - alpha;
-  }
+    if (key.depth != kDepthNone) {
+      if (!kColors && rest.tau > 0.0) passSlab(slab, rest, uintBitsToFloat(key.depth), color_sum, transmittance);
+      float alpha;
+      vec3 color = fragmentColor(key, source, i < kFull, alpha);
+      color_sum += transmittance * alpha * color;
+      transmittance *= 1.0 - alpha;
+    }
+    ++i;
+  } while (i < kSort && anyLane(core[0].depth != kDepthNone));
   if (rest.tau > 0.0) {
     addAggregate(tail, slab.nearest_tau, slab.nearest_color);
     addAggregate(tail, slab.tau * (1.0 - slab.done), slab.color);

@@ -33,12 +33,21 @@
 #define FLK_TILE 8u
 #define FLK_LONG_TILE 2.0  // times the mean: such a tile's lists are long
 
-// Counters: fragments, then what FLK_SPEC_COUNT_WORK counts.
+// Counters: fragments that have no share's counter, then what FLK_SPEC_COUNT_WORK counts, then those of shares.
 #define FLK_COUNTER_FULL 1
 #define FLK_COUNTER_LOW 2
 #define FLK_COUNTER_TAPS 3  // low word, high word
 #define FLK_COUNTER_PIXELS 5
 #define FLK_COUNTER_WORDS 6
+
+// Shares: where drawing processors pass a cache line to each other slowly (a CPU's cores), nodes come in FLK_SHARES equal parts, the last
+// with what is left over, each with a counter in a cache line of its own. A block of pixels takes from its own share until that is
+// used up, then from the next, so that all nodes are found.
+#define FLK_SHARES 16u
+#define FLK_SHARE_BLOCK 64u // pixels a side
+#define FLK_SHARE_COUNTER(share) (16u * ((share) + 1u))
+#define FLK_SHARED_COUNTER_WORDS FLK_SHARE_COUNTER(FLK_SHARES)
+#define FLK_SHARE_NODES(share, capacity) ((capacity) / FLK_SHARES + ((share) + 1u == FLK_SHARES ? (capacity) % FLK_SHARES : 0u))
 
 // Specialisation constants.
 #define FLK_SPEC_PAYLOAD 0   // FLK_PAYLOAD_...
@@ -61,7 +70,9 @@
 #define FLK_SPEC_TAPS 17     // shadow map reads of a full shade: 1, 4, 9, 25
 #define FLK_SPEC_LOW_SHADE 18 // FLK_LOW_SHADE_...
 #define FLK_SPEC_LONG_FIRST 19 // 1: tiles with long lists are resolved before the others
-#define FLK_SPEC_COUNT 20
+#define FLK_SPEC_SHARES 20   // 1: nodes come in shares (raster capture)
+#define FLK_SPEC_LOCKSTEP 21 // 1: a CPU emulates lanes: they leave a loop together
+#define FLK_SPEC_COUNT 22
 
 #define FLK_CLEAR_SIDE 32u // texels of a shadow map that a group of the clear pass empties, along either axis
 

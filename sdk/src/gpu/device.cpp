@@ -114,6 +114,7 @@ FlkResult Device::init(const FlkContextDesc& desc, const Messages& context_messa
 
       fn.vkGetPhysicalDeviceMemoryProperties(desc.physical_device, &memory_);
       limits = properties.limits;
+      cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
       pipeline_cache = desc.pipeline_cache;
       if (desc.device_allocator) allocator_ = *desc.device_allocator, host_allocates_ = true;
       device = desc.device;

@@ -113,6 +113,7 @@ public:
   VkPhysicalDeviceLimits limits{};
   uint32_t timestamp_bits = 0;
   bool graphics = true;  // the queue rasterises
+  bool cpu = false;      // its processors are those of the host
   Messages messages;
 
 private:

@@ -338,7 +338,8 @@ void View::record(VkCommandBuffer cmd, Frame& frame) {
 
   if (plan.count_work)
     Barriers().add(memoryBarrier(kCompute, kStorageWrite, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT)).record(fn, cmd);
-  const VkBufferCopy count{0, frame.slot * VkDeviceSize(FLK_COUNTER_WORDS * 4), FLK_COUNTER_WORDS * 4};
+  const VkDeviceSize count_bytes = plan.bytes(ResourceId::counters);
+  const VkBufferCopy count{0, frame.slot * count_bytes, count_bytes};
   fn.vkCmdCopyBuffer(cmd, frame.counters, read_back_.handle, 1, &count);
   Barriers last;
   last.add(memoryBarrier(VK_PIPELINE_STAGE_2_COPY_BIT, kTransferWrite, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT));

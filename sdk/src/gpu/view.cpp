@@ -8,7 +8,6 @@ namespace forelock {
 namespace {
 
 constexpr uint64_t kDefaultBudget = uint64_t(256) << 20;
-constexpr uint64_t kCountBytes = FLK_COUNTER_WORDS * 4;  // of the read-back buffer, a frame
 constexpr uint32_t kSmallFrames = 8;                     // before memory twice too large is given back
 constexpr VkBufferUsageFlags kBound =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
@@ -89,12 +88,17 @@ void View::readStatistics(const Frame& frame) {
   for (double& ms : latest_.milliseconds) ms = -1;
   if (frame.plan.passes.count == 0) return;
   const Device& device = context_.device;
-  uint32_t counters[FLK_COUNTER_WORDS] = {};
+  uint32_t counters[FLK_SHARED_COUNTER_WORDS] = {};
+  const std::size_t counter_bytes = std::min<std::size_t>(frame.plan.bytes(ResourceId::counters), sizeof counters);
   if (!device.planning())
-    std::memcpy(counters, static_cast<const uint32_t*>(read_back_.memory.mapped) + frame.slot * FLK_COUNTER_WORDS, sizeof counters);
-  const uint32_t count = counters[0];
-  latest_.fragments = count;
+    std::memcpy(counters, static_cast<const std::byte*>(read_back_.memory.mapped) + frame.slot * counter_bytes, counter_bytes);
+  uint64_t count = counters[0];
   const bool lists = frame.plan.has(PassId::capture);
+  for (uint32_t share = 0; share < FLK_SHARES && frame.plan.node_shares; ++share)
+    count += std::min(counters[FLK_SHARE_COUNTER(share)],
+                      lists ? FLK_SHARE_NODES(share, uint32_t(frame.plan.node_capacity)) : FLK_COUNT_SATURATED);
+  count = std::min<uint64_t>(count, FLK_COUNT_SATURATED);
+  latest_.fragments = count;
   latest_.overflow_fragments = lists && count > frame.plan.node_capacity ? count - frame.plan.node_capacity : 0;
   latest_.pixels = counters[FLK_COUNTER_PIXELS];
   latest_.full_shades = counters[FLK_COUNTER_FULL], latest_.low_shades = counters[FLK_COUNTER_LOW];
@@ -223,11 +227,11 @@ FlkResult View::ensureRing(const FramePlan& plan) {
   Device& device = context_.device;
   const uint32_t count = uint32_t(frames_.size());
   if (!read_back_.size) {
-    const FlkResult result =
-        device.createBuffer(kCountBytes * count, VK_BUFFER_USAGE_TRANSFER_DST_BIT, true, "read-back", read_back_);
+    const uint64_t bytes = plan.bytes(ResourceId::read_back);
+    const FlkResult result = device.createBuffer(bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, true, "read-back", read_back_);
     if (result != FLK_SUCCESS) return result;
     // A frame that was recorded and never submitted reads as one that counted nothing.
-    if (!device.planning()) std::memset(read_back_.memory.mapped, 0, kCountBytes * count);
+    if (!device.planning()) std::memset(read_back_.memory.mapped, 0, bytes);
   }
   if (device.planning()) return FLK_SUCCESS;
   FlkResult result = FLK_SUCCESS;
@@ -358,6 +362,7 @@ FlkResult View::plan(const FlkFrame& asked, Hair* const* hairs, Frame*& planned)
     messages.say(FLK_SEVERITY_ERROR, "FRAME_CAPTURE", "FLK_CAPTURE_RASTER needs a queue family with graphics");
     return FLK_ERROR_INVALID_ARGUMENT;
   }
+  facts.cpu = device.cpu;
   facts.drop_overflow = asked.overflow == FLK_OVERFLOW_DROP;
   facts.count_only = asked.count_only, facts.count_work = asked.count_work;
   facts.ambient_sh = asked.ambient_sh != nullptr;

@@ -23,6 +23,7 @@ Recipe captureRecipe(const FramePlan& plan, PassId pass) {
   if (kind == CaptureKind::tangent || kind == CaptureKind::color) recipe.constants[FLK_SPEC_PAYLOAD] = plan.payload;
   recipe.constants[FLK_SPEC_COLOR] = plan.fibre_colors && (pass == PassId::capture || pass == PassId::hard_payload);
   recipe.constants[FLK_SPEC_AGGREGATE] = plan.aggregate;
+  recipe.constants[FLK_SPEC_SHARES] = plan.node_shares;
   switch (pass) {
     case PassId::count: recipe.constants[FLK_SPEC_STORE] = FLK_STORE_COUNT; break;
     case PassId::hard_depth: recipe.constants[FLK_SPEC_STORE] = FLK_STORE_HARD_DEPTH; break;

@@ -27,6 +27,7 @@ void addLight(const FramePlan& plan, Recipe& recipe) {
   recipe.constants[FLK_SPEC_HOST] = plan.host_light;
   recipe.constants[FLK_SPEC_AMBIENT] = plan.ambient_sh;
   recipe.constants[FLK_SPEC_COUNT_WORK] = plan.count_work;
+  recipe.constants[FLK_SPEC_LOCKSTEP] = plan.lockstep;
   recipe.constants[FLK_SPEC_TAPS] = plan.full_taps;
   recipe.constants[FLK_SPEC_LOW_SHADE] = plan.low_shade;
 }

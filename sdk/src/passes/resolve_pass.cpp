@@ -21,6 +21,7 @@ Recipe resolveRecipe(const FramePlan& plan) {
   if (plan.method->shades_front) recipe.constants[FLK_SPEC_K] = plan.k;
   if (plan.method->sorts_front_only) recipe.constants[FLK_SPEC_K_SORT] = plan.k_sort;
   recipe.constants[FLK_SPEC_TAIL] = plan.tail;
+  recipe.constants[FLK_SPEC_LOCKSTEP] = plan.lockstep;
   if (plan.method->resolve != ResolveKind::colors) addLight(plan, recipe);
   return recipe;
 }

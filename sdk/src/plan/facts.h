@@ -56,6 +56,7 @@ struct FrameFacts {
   uint32_t core_taps = kFullTaps;
   uint32_t low_shade = 0;              // FLK_LOW_SHADE_...
   bool compute = false;                // capture and shadow maps without a rasteriser
+  bool cpu = false;                    // the device's processors are those of the host
   bool drop_overflow = false;
   bool count_only = false;
   bool count_work = false;

@@ -140,8 +140,9 @@ void planPasses(const FrameFacts& facts, uint64_t all_segments, FramePlan& plan)
   if (plan.aggregate)
     plan.resources.add({ResourceId::aggregates, "aggregates", pixels * FLK_AGGREGATE_WORDS * 4, true,
                         "16 bytes a pixel for fragments that find the lists full"});
-  plan.resources.add({ResourceId::counters, "counters", FLK_COUNTER_WORDS * 4, true, "the exact fragment count"});
-  plan.resources.add({ResourceId::read_back, "read-back", uint64_t(facts.frames_in_flight) * FLK_COUNTER_WORDS * 4, true,
+  const uint64_t counter_bytes = (facts.cpu ? FLK_SHARED_COUNTER_WORDS : FLK_COUNTER_WORDS) * 4;
+  plan.resources.add({ResourceId::counters, "counters", counter_bytes, true, "the exact fragment count"});
+  plan.resources.add({ResourceId::read_back, "read-back", uint64_t(facts.frames_in_flight) * counter_bytes, true,
                       "the count of each frame in flight, for sizing the next frame's lists"});
   if (plan.hasShadow())
     plan.resources.add({ResourceId::shadow_map, "shadow map", uint64_t(plan.shadow.width) * plan.shadow.height * 4, true,
@@ -222,6 +223,8 @@ FramePlan planFrame(const FrameFacts& facts, uint64_t node_capacity) {
   plan.has_depth = facts.has_depth;
   plan.timestamps = facts.timestamps;
   plan.compute = facts.compute;
+  plan.node_shares = facts.cpu && !facts.compute;
+  plan.lockstep = facts.cpu;
   plan.count_only = facts.count_only;
   plan.count_work = facts.count_work && method.shaded && !facts.count_only;
   plan.fibre_colors = plan.fibre_colors && method.shaded && !plan.count_only;

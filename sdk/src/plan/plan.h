@@ -49,6 +49,8 @@ struct FramePlan {
   uint64_t segments = 0;     // captured
   uint64_t estimate = 0;     // upper estimate of fragments
   uint64_t node_capacity = 0;
+  bool node_shares = false;  // nodes come in shares (shared/node.h)
+  bool lockstep = false;     // lanes leave a loop together (passes/light.glsl)
   bool long_first = false;   // tiles with long lists are resolved before the others
   ShadowLayout shadow;
   uint32_t k = 0, k_sort = 0, payload = 0, display = 0;

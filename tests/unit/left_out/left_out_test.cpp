@@ -159,7 +159,7 @@ std::string foldedHash(ShaderId id, uint8_t images, const uint32_t* constants) {
       const uint32_t spec = words[at + 3];
       // A boolean wants a word.
       const bool boolean = spec == FLK_SPEC_ONE_HAIR || spec == FLK_SPEC_AGGREGATE || spec == FLK_SPEC_AMBIENT || spec == FLK_SPEC_COLOR ||
-                           spec == FLK_SPEC_COUNT_WORK || spec == FLK_SPEC_COLORS_LISTED || spec == FLK_SPEC_LONG_FIRST;
+                           spec == FLK_SPEC_COUNT_WORK || spec == FLK_SPEC_COLORS_LISTED || spec == FLK_SPEC_LONG_FIRST || spec == FLK_SPEC_SHARES || spec == FLK_SPEC_LOCKSTEP;
       values += std::to_string(spec) + ":" + (boolean ? (constants[spec] ? "true" : "false") : std::to_string(constants[spec])) + " ";
     }
   std::string command = FORELOCK_SPIRV_OPT;

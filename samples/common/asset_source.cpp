@@ -149,6 +149,15 @@ OpenedAsset growAsset(const Recipe& recipe, const std::string& label, const Prog
   return opened;
 }
 
+OpenedAsset assetOf(const FlkStrands& strands, const std::string& label) {
+  FlkAssetOptions options;
+  OpenedAsset opened = prepare(label, options);
+  FlkAsset asset = nullptr;
+  const FlkResult result = flkAssetCreate(&strands, &options, &asset);
+  finish(opened, result, asset);
+  return opened;
+}
+
 OpenedAsset openAsset(const std::string& source, const ProgressFunction& progress) {
   if (source.rfind(kGroomPrefix, 0) == 0 || lowerExtension(source) == ".json") {
     return growAsset(openRecipe(source), source, progress);
@@ -163,13 +172,13 @@ OpenedAsset openAsset(const std::string& source, const ProgressFunction& progres
 
 uint32_t formatOfPath(const std::string& path) {
   const std::string extension = lowerExtension(path);
-  return extension == ".tfx" ? FLK_FORMAT_TFX : extension == ".hair" ? FLK_FORMAT_HAIR : FLK_FORMAT_UNKNOWN;
+  return extension == ".tfx" ? FLK_FORMAT_TFX : extension == ".hair" ? FLK_FORMAT_HAIR : extension == ".ply" ? FLK_FORMAT_PLY : FLK_FORMAT_UNKNOWN;
 }
 
 std::vector<AssetMessage> saveAsset(const OpenedAsset& opened, const std::string& path) {
   const uint32_t format = formatOfPath(path);
   if (format == FLK_FORMAT_UNKNOWN) {
-    throw AssetError(FLK_ERROR_FORMAT_UNKNOWN, path + ": no writer for this extension, use .tfx or .hair");
+    throw AssetError(FLK_ERROR_FORMAT_UNKNOWN, path + ": no writer for this extension, use .tfx, .hair or .ply");
   }
   const size_t before = opened.messages->size();
   const FlkResult result = flkAssetSaveFile(opened.asset.get(), format, path.c_str());

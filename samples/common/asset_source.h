@@ -49,6 +49,9 @@ OpenedAsset openAsset(const std::string& source, const ProgressFunction& progres
 // Grows a recipe into an asset. Throws AssetError.
 OpenedAsset growAsset(const Recipe& recipe, const std::string& label, const ProgressFunction& progress = {});
 
+// An asset of arrays, which are copied. Throws AssetError.
+OpenedAsset assetOf(const FlkStrands& strands, const std::string& label);
+
 // The recipe of groom:NAME, a recipe's path, or a bare NAME of a groom. Throws AssetError.
 Recipe openRecipe(const std::string& source);
 

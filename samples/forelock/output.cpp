@@ -42,6 +42,9 @@ const char* formatName(uint32_t format) {
   switch (format) {
     case FLK_FORMAT_TFX: return "tfx";
     case FLK_FORMAT_HAIR: return "hair";
+    case FLK_FORMAT_TFX_TEXT: return "tfx text";
+    case FLK_FORMAT_STRAND_DATA: return "strand data";
+    case FLK_FORMAT_PLY: return "ply";
     default: return "arrays";
   }
 }

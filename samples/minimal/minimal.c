@@ -1,6 +1,6 @@
 /* A host engine in one C99 file: where Forelock sits in a frame. SPDX-License-Identifier: MIT
  *
- *   forelock_minimal [STRANDS] [OUT.ppm]    STRANDS: a strand file (.tfx, .hair), or "-" for the sphere made below
+ *   forelock_minimal [STRANDS] [OUT.ppm]    STRANDS: a strand file (.tfx, .hair, .ply, .data), or "-" for the sphere made below
  *   FORELOCK_DEVICE=TEXT                    a device whose name contains TEXT; otherwise a discrete GPU, else any
  *
  * Whatever does not concern hair is as short as Vulkan allows. The five places where the engine meets the SDK are

@@ -93,7 +93,7 @@ bool pixelsOfView(const std::string& name, double& pixels) {
 void addOptions(CLI::App& program, Arguments& a) {
   Options& o = a.options;
   program.footer(kExamples);
-  program.add_option("--asset", o.asset, "A strand file (.tfx, .hair), a recipe (.json) or groom:NAME")->type_name("ASSET");
+  program.add_option("--asset", o.asset, "A strand file (.tfx, .hair, .ply, .data), a recipe (.json) or groom:NAME")->type_name("ASSET");
   program.add_option("--scene", o.scene, "A scene file: assets, materials, lights, camera (docs/scene.md)")->type_name("FILE");
   program.add_option("--out", o.out, "Folder for the results; made if need be")->required()->type_name("DIR");
   program.add_option("--views", a.views, "Thousands of hair pixels each [35k,78k,198k,365k]")->type_name("LIST");

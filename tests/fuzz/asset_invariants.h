@@ -85,7 +85,7 @@ inline const char* brokenRoundTrip(FlkAsset asset) {
   flkAssetGetStrands(asset, &before);
   FlkAssetInfo info;
   flkAssetGetInfo(asset, &info);
-  for (const uint32_t format : {uint32_t{FLK_FORMAT_TFX}, uint32_t{FLK_FORMAT_HAIR}}) {
+  for (const uint32_t format : {uint32_t{FLK_FORMAT_TFX}, uint32_t{FLK_FORMAT_HAIR}, uint32_t{FLK_FORMAT_PLY}}) {
     FlkResult result;
     const std::vector<unsigned char> bytes = saved(asset, format, result);
     if (result == FLK_ERROR_LIMIT) continue;
@@ -102,17 +102,17 @@ inline const char* brokenRoundTrip(FlkAsset asset) {
       broken = "a round trip keeps the strands";
     else if (std::memcmp(after.positions, before.positions, vertices * 12) != 0)
       broken = "a round trip keeps every bit of the positions";
-    else if (format == FLK_FORMAT_TFX && before.inverse_masses &&
+    else if (format != FLK_FORMAT_HAIR && before.inverse_masses &&
              std::memcmp(after.inverse_masses, before.inverse_masses, vertices * 4) != 0)
-      broken = "a .tfx round trip keeps the inverse masses";
-    else if (format == FLK_FORMAT_TFX && before.root_uvs &&
+      broken = "a .tfx or PLY round trip keeps the inverse masses";
+    else if (format != FLK_FORMAT_HAIR && before.root_uvs &&
              std::memcmp(after.root_uvs, before.root_uvs, size_t{before.strand_count} * 8) != 0)
-      broken = "a .tfx round trip keeps the root UVs";
-    else if (format == FLK_FORMAT_HAIR && info.has_radii && std::memcmp(after.radii, before.radii, vertices * 4) != 0)
-      broken = "a .hair round trip keeps the radii";
-    else if (format == FLK_FORMAT_HAIR &&
+      broken = "a .tfx or PLY round trip keeps the root UVs";
+    else if (format != FLK_FORMAT_TFX && info.has_radii && std::memcmp(after.radii, before.radii, vertices * 4) != 0)
+      broken = "a .hair or PLY round trip keeps the radii";
+    else if (format != FLK_FORMAT_TFX &&
              (before.colors ? !after.colors || std::memcmp(after.colors, before.colors, vertices * 12) != 0 : after.colors != nullptr))
-      broken = "a .hair round trip keeps the colours";
+      broken = "a .hair or PLY round trip keeps the colours";
     else if (saved(again, format, result) != bytes)
       broken = "equal assets give equal bytes";
     flkAssetDestroy(again);

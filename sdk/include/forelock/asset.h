@@ -61,7 +61,10 @@ enum {
   FLK_FORMAT_UNKNOWN = 0,
   FLK_FORMAT_TFX = 1,   /* TressFX, binary: versions 3 and 4 are read, 4 is written. Equal vertex counts, root UV,
                            inverse mass; no widths, no colours */
-  FLK_FORMAT_HAIR = 2   /* Cem Yuksel's .hair: thickness (read and written as the diameter), colour; no UV, no mass */
+  FLK_FORMAT_HAIR = 2,  /* Cem Yuksel's .hair: thickness (read and written as the diameter), colour; no UV, no mass */
+  FLK_FORMAT_TFX_TEXT = 3,    /* TressFX 1 and 2, text, only read: root UV, inverse mass as TressFX implies it */
+  FLK_FORMAT_STRAND_DATA = 4, /* USC-HairSalon (.data) and CT2Hair (.bin), only read: positions */
+  FLK_FORMAT_PLY = 5    /* PLY with an element strand, read and written: everything that an asset holds */
 };
 
 typedef struct FlkAssetInfo {
@@ -99,7 +102,7 @@ FLK_API FlkResult flkAssetLoadFile(const char* path, const FlkAssetOptions* opti
 /* Size in bytes and content of the asset written as `format`. With bytes == NULL only *size is set; otherwise *size is
  * the capacity on entry and the length on return. Equal assets give equal bytes. FLK_ERROR_INVALID_ARGUMENT: the format
  * cannot be written or the capacity is too small; FLK_ERROR_LIMIT: the format cannot hold this asset (.tfx needs equal
- * vertex counts, .hair at most 65,536 vertices a strand); what else a format cannot hold is left out and reported to the
+ * vertex counts, .hair and PLY at most 65,536 vertices a strand); what else a format cannot hold is left out and reported to the
  * asset's message callback with id "WRITE_DROPS_...". */
 FLK_API FlkResult flkAssetSaveMemory(FlkAsset asset, uint32_t format, void* bytes, size_t* size);
 

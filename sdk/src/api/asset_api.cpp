@@ -55,9 +55,9 @@ FlkResult acceptHead(std::span<const std::byte> head, const Report& report) {
 // The codec for a save and the bytes that it needs.
 FlkResult prepareSave(const FlkAsset_T& asset, uint32_t format, const Report& report, const Codec*& codec, uint64_t& bytes) {
   codec = findCodec(format);
-  if (!codec)
+  if (!codec || !codec->write)
     return report.fail(FLK_ERROR_INVALID_ARGUMENT, "WRITE_FORMAT_UNKNOWN",
-                       "format %" PRIu32 " cannot be written: choose FLK_FORMAT_TFX or FLK_FORMAT_HAIR", format);
+                       "format %" PRIu32 " cannot be written: choose FLK_FORMAT_TFX, FLK_FORMAT_HAIR or FLK_FORMAT_PLY", format);
   const FlkResult result = codec->measure(asset.view(), asset.info, report, bytes);
   if (result == FLK_SUCCESS && bytes > SIZE_MAX)
     return report.fail(FLK_ERROR_LIMIT, "WRITE_TOO_LARGE", "its %" PRIu64 " bytes do not fit into memory", bytes);

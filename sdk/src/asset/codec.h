@@ -16,7 +16,7 @@ struct Codec {
   FlkResult (*read)(std::span<const std::byte> bytes, const Limits& limits, const Report& report, StrandArrays& arrays,
                     Places& places, Findings& findings);
 
-  // Length in bytes of an asset in this format. FLK_ERROR_LIMIT, told to `report`, if the format cannot hold it.
+  // Both nullptr: the format is only read. Length in bytes of an asset in this format. FLK_ERROR_LIMIT, told to `report`, if the format cannot hold it.
   FlkResult (*measure)(const FlkStrands& strands, const FlkAssetInfo& info, const Report& report, uint64_t& bytes);
 
   // Fills a span of that length and tells what was left out.
@@ -25,6 +25,9 @@ struct Codec {
 
 extern const Codec tfx_codec;
 extern const Codec hair_codec;
+extern const Codec tfx_text_codec;
+extern const Codec strand_data_codec;
+extern const Codec ply_codec;
 
 // nullptr: no such format.
 const Codec* findCodec(uint32_t format) noexcept;

@@ -34,9 +34,15 @@ public:
   // A read past the end gives 0, stays at the end and is remembered here.
   bool failed() const noexcept { return failed_; }
 
+  uint8_t u8() noexcept { return load<uint8_t>(); }
   uint16_t u16() noexcept { return load<uint16_t>(); }
   uint32_t u32() noexcept { return load<uint32_t>(); }
   float f32() noexcept { return std::bit_cast<float>(load<uint32_t>()); }
+
+  void skip(uint64_t bytes) noexcept {
+    if (bytes > left()) fail();
+    else at_ += bytes;
+  }
 
   void floats(std::span<float> out) noexcept {
     if (out.empty()) return;

@@ -40,6 +40,10 @@ constexpr Meaning meanings[] = {
     {"COLOR_OUTSIDE_UNIT", warning, 1, "colours outside 0..1 were clamped", "export linear colours between 0 and 1"},
     {"HAIR_POINTS_UNUSED", warning, 0, "points at the end belong to no strand and were left out",
      "check the segment counts of the exporter"},
+    {"PLY_VERTICES_UNUSED", warning, 0, "vertices at the end belong to no strand and were left out",
+     "check the segment counts of the exporter"},
+    {"TFX_TEXT_TRANSFORM_IGNORED", warning, 0, "the header asks for a scale, rotation or shift, which is not applied",
+     "transform the hair where it is placed"},
     {"HAIR_FLAGS_RESERVED", warning, 0, "bits of the flag field that have no meaning are set and were ignored",
      "if arrays are missing, export without attributes of your own"},
     {"TFX_OFFSET_UNALIGNED", warning, 0, "blocks do not start at a multiple of 4 bytes",
@@ -62,6 +66,10 @@ constexpr Meaning meanings[] = {
      "opacity comes from the material"},
     {"HAIR_DEFAULT_COLOR_IGNORED", info, 0, "the header names one colour for all of the hair, which is not used",
      "colour comes from the material: set it there"},
+    {"STRAND_ROOT_ONLY", info, 1, "entries of one point, which mark roots without hair, were left out", "nothing, data sets of heads have them"},
+    {"DATA_VALUES_IGNORED", info, 0, "four values of each point after its position are not used", "nothing, if the hair looks right"},
+    {"TFX_TEXT_KEY_UNKNOWN", info, 0, "lines of the header have a key that is not known and were ignored", "nothing, if the hair looks right"},
+    {"PLY_ALPHA_IGNORED", info, 0, "the vertices have an alpha, which is not used", "opacity comes from the material"},
     {"WIDTH_DEFAULTED", info, 0, "no widths in the source, a default is used", "give radii or set a width on the hair"},
 };
 static_assert(std::size(meanings) == static_cast<std::size_t>(FindingKind::kinds));

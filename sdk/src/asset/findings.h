@@ -29,6 +29,8 @@ enum class FindingKind : uint32_t {
   color_not_finite,
   color_outside_unit,
   hair_points_unused,
+  ply_vertices_unused,
+  tfx_text_transform_ignored,
   hair_flags_reserved,
   tfx_offset_unaligned,
   trailing_bytes,
@@ -42,6 +44,10 @@ enum class FindingKind : uint32_t {
   tfx_vertex_color_ignored,
   hair_transparency_ignored,
   hair_default_color_ignored,
+  strand_root_only,
+  data_values_ignored,
+  tfx_text_key_unknown,
+  ply_alpha_ignored,
   width_defaulted,
   kinds
 };
@@ -53,7 +59,7 @@ public:
   // `strand` is numbered as in the source; no_strand where the finding is about the file. Keeps the first byte told.
   void note(FindingKind kind, uint32_t strand, uint64_t byte, uint64_t times = 1) noexcept;
 
-  // A sentence of its own for this kind in place of the table's, for one that names values. At most two kinds.
+  // A sentence of its own for this kind in place of the table's, for one that names values. At most three kinds.
   void describe(FindingKind kind, const char* format, ...) noexcept __attribute__((format(printf, 3, 4)));
 
   uint64_t count(FindingKind kind) const noexcept { return slots_[static_cast<std::size_t>(kind)].count; }
@@ -83,7 +89,7 @@ private:
   };
 
   std::array<Slot, static_cast<std::size_t>(FindingKind::kinds)> slots_;
-  std::array<Description, 2> descriptions_;
+  std::array<Description, 3> descriptions_;
   std::pmr::vector<Entry> list_;
 };
 

@@ -189,10 +189,10 @@ void write(const FlkStrands& strands, const FlkAssetInfo& info, const Report& re
 
   if (strands.root_uvs)
     report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_ROOT_UVS",
-               "its root UVs are not in the .hair file, which has no place for them: write .tfx to keep them");
+               "its root UVs are not in the .hair file, which has no place for them: write .ply or .tfx to keep them");
   if (strands.inverse_masses)
     report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_INVERSE_MASSES",
-               "its inverse masses are not in the .hair file, which has no place for them: write .tfx to keep them");
+               "its inverse masses are not in the .hair file, which has no place for them: write .ply or .tfx to keep them");
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ float measureStrand(const StrandArrays& arrays, uint32_t strand, const Places& p
     findings.note(kind, strand, places.positions.byte(strand, vertex));
     return dropped;
   };
+  if (end - begin == 1 && places.bald_roots) return drop(FindingKind::strand_root_only, begin);
   if (end - begin < 2) return drop(FindingKind::strand_too_short, begin);
 
   for (uint32_t vertex = begin; vertex < end; ++vertex)
@@ -215,7 +216,7 @@ FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_
                        "none of its %" PRIu32 " strands can be drawn: %" PRIu64 " have fewer than two vertices, %" PRIu64
                        " hold NaN or infinite coordinates, %" PRIu64 " coordinates beyond 1e6, and %" PRIu64
                        " have no length; export it again",
-                       source_strands, findings.count(FindingKind::strand_too_short),
+                       source_strands, findings.count(FindingKind::strand_too_short) + findings.count(FindingKind::strand_root_only),
                        findings.count(FindingKind::position_not_finite),
                        findings.count(FindingKind::position_out_of_range), findings.count(FindingKind::strand_zero_length));
 

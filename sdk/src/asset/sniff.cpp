@@ -1,9 +1,10 @@
 #include "asset/sniff.h"
 
 #include "asset/cursor.h"
-#include "forelock/asset.h"
+#include "asset/strand_arrays.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace forelock {
@@ -50,16 +51,12 @@ constexpr Signature binary_signatures[] = {
 constexpr Signature text_signatures[] = {
     {"version https://git-lfs"sv, unknown, "GIT_LFS_POINTER",
      "a Git LFS pointer, not the file itself: run 'git lfs pull' where it was cloned, or download the file"},
-    {"version "sv, unknown, "TFX_TEXT",
-     "a TressFX 1 or 2 text file; only the binary forms of TressFX 3 and 4 are read: export again with a TressFX 4 exporter"},
     {"<!doctype"sv, unknown, "HTML_PAGE", "a web page, not the file itself: download it again, through its raw link"},
     {"<html"sv, unknown, "HTML_PAGE", "a web page, not the file itself: download it again, through its raw link"},
     {"<?xml"sv, unknown, "XML_FILE", "an XML document, not a strand file: check what was downloaded"},
     {"<"sv, unknown, "HTML_PAGE", "a web page or XML document, not the file itself: download it again, through its raw link"},
     {"#usda"sv, unknown, "USD_FILE",
      "a USD text layer, which is not read: export the curves as .tfx or .hair from the program that made it"},
-    {"ply\n"sv, unknown, "PLY_FILE", "a PLY file, which is not read: convert its strands to .hair first"},
-    {"ply\r"sv, unknown, "PLY_FILE", "a PLY file, which is not read: convert its strands to .hair first"},
 };
 
 char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -91,6 +88,16 @@ bool looksLikeObj(std::string_view text) noexcept {
   return false;
 }
 
+// Counts of strands and of points, then a point: USC-HairSalon and CT2Hair have nothing else to be known by.
+bool looksLikeStrandData(std::span<const std::byte> head) noexcept {
+  Cursor cursor(head);
+  const uint32_t strands = cursor.u32(), points = cursor.u32();
+  if (cursor.failed() || strands == 0 || strands > limit_strands || points == 0 || points > 65'536) return false;
+  for (int axis = 0; axis < 3 && cursor.left() >= 4; ++axis)
+    if (!(std::fabs(cursor.f32()) <= 1e6f)) return false;
+  return true;
+}
+
 }  // namespace
 
 FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uint32_t& format) noexcept {
@@ -100,6 +107,7 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
   const std::string_view all(reinterpret_cast<const char*>(head.data()), std::min(head.size(), sniffed_bytes));
   if (all.starts_with("\x00\x00\x80\x40"sv) || all.starts_with("\x00\x00\x40\x40"sv)) return format = FLK_FORMAT_TFX, FLK_SUCCESS;
   if (all.starts_with("HAIR")) return format = FLK_FORMAT_HAIR, FLK_SUCCESS;
+  if (all.starts_with("ply\n") || all.starts_with("ply\r")) return format = FLK_FORMAT_PLY, FLK_SUCCESS;
   for (const Signature& signature : binary_signatures)
     if (all.starts_with(signature.start)) return report.fail(signature.result, signature.id, "it is %s", signature.text);
 
@@ -110,6 +118,7 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
     for (const Signature& signature : text_signatures)
       if (startsWithoutCase(text, signature.start))
         return report.fail(signature.result, signature.id, "it is %s", signature.text);
+    if (startsWithoutCase(text, "version "sv)) return format = FLK_FORMAT_TFX_TEXT, FLK_SUCCESS;
     if (text.starts_with('{')) {
       if (text.find("\"asset\"") != std::string_view::npos || text.find("\"accessors\"") != std::string_view::npos)
         return report.fail(unknown, "GLTF_TEXT",
@@ -133,6 +142,8 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
                          double{version});
   }
 
+  if (looksLikeStrandData(head)) return format = FLK_FORMAT_STRAND_DATA, FLK_SUCCESS;
+
   char hex[4 * 3 + 1] = "";
   constexpr char digits[] = "0123456789abcdef";
   for (std::size_t i = 0; i < 4 && i < head.size(); ++i) {
@@ -143,8 +154,9 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
     hex[i * 3 + 3] = '\0';
   }
   return report.fail(unknown, "FORMAT_UNKNOWN",
-                     "the bytes at its start (%sat byte 0) belong to no strand format that is read: give a .tfx of TressFX 3 "
-                     "or 4 (00 00 40 40, 00 00 80 40) or a .hair file (48 41 49 52)",
+                     "the bytes at its start (%sat byte 0) belong to no strand format that is read: give a .tfx "
+                     "(TressFX 3 or 4: 00 00 40 40, 00 00 80 40; 1 or 2: text that begins with version), a .hair file (48 41 49 52), a PLY "
+                     "file of strands or the data of USC-HairSalon or CT2Hair",
                      hex);
 }
 

@@ -17,9 +17,9 @@ struct Limits {
   uint32_t strands = limit_strands;
   uint32_t vertices = limit_vertices;
 
-  // No file within these limits is longer: no format holds more than 40 bytes a vertex and 16 a strand. The rest is room
+  // No file within these limits is longer: text takes some 25 bytes a number at most, binary forms 40 bytes a vertex. The rest is room
   // for headers and for bytes at the end that belong to nothing.
-  uint64_t largestFile() const noexcept { return uint64_t{strands} * 16 + uint64_t{vertices} * 40 + (1u << 20); }
+  uint64_t largestFile() const noexcept { return uint64_t{strands} * 128 + uint64_t{vertices} * 256 + (1u << 20); }
 };
 
 struct StrandArrays {
@@ -43,14 +43,16 @@ struct Place {
   uint64_t offset = no_byte;  // of the first record
   uint32_t stride = 0;        // bytes from record to record
   bool per_strand = false;    // a record a strand rather than a vertex
+  uint32_t gap = 0;           // bytes before the vertices of each strand
 
   uint64_t byte(uint32_t strand, uint32_t vertex) const noexcept {
-    return offset == no_byte ? no_byte : offset + uint64_t{stride} * (per_strand ? strand : vertex);
+    return offset == no_byte ? no_byte : offset + uint64_t{gap} * (uint64_t{strand} + 1) + uint64_t{stride} * (per_strand ? strand : vertex);
   }
 };
 
 struct Places {
   Place positions, radii, root_uvs, inverse_masses, colors;
+  bool bald_roots = false;    // a strand of one vertex is a root without hair, and no defect
 };
 
 }  // namespace forelock

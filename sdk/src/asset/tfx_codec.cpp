@@ -184,7 +184,7 @@ FlkResult measure(const FlkStrands& strands, const FlkAssetInfo& info, const Rep
   if (info.min_vertices_per_strand != info.max_vertices_per_strand)
     return report.fail(FLK_ERROR_LIMIT, "WRITE_TFX_UNEQUAL_COUNTS",
                        "its strands have from %" PRIu32 " to %" PRIu32 " vertices, but a .tfx file needs as many in each: "
-                       "resample the strands or write .hair",
+                       "resample the strands or write .ply or .hair",
                        info.min_vertices_per_strand, info.max_vertices_per_strand);
   const uint64_t uv_offset = written_header_size + uint64_t{strands.vertex_count} * 16;
   bytes = uv_offset + (strands.root_uvs ? uint64_t{strands.strand_count} * 8 : 0);
@@ -214,11 +214,11 @@ void write(const FlkStrands& strands, const FlkAssetInfo& info, const Report& re
 
   if (info.has_radii)
     report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_RADII",
-               "its widths (radius %g to %g) are not in the .tfx file, which has no place for them: write .hair to keep them",
+               "its widths (radius %g to %g) are not in the .tfx file, which has no place for them: write .ply or .hair to keep them",
                double{info.min_radius}, double{info.max_radius});
   if (strands.colors)
     report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_COLORS",
-               "its colours are not in the .tfx file, whose block for them TressFX does not read: write .hair to keep them");
+               "its colours are not in the .tfx file, whose block for them TressFX does not read: write .ply or .hair to keep them");
   if (!strands.inverse_masses)
     report.say(FLK_SEVERITY_INFO, "WRITE_FILLS_INVERSE_MASSES",
                "it has no inverse masses: the first two vertices of each strand are written as pinned, the rest as free");

@@ -22,7 +22,27 @@ std::vector<Seed> seeds() {
     full_tfx3.setU32(field, full_tfx3.size()).zeros(bytes);
   return {{"uv.tfx", smallTfx()},      {"plain.tfx", smallTfx(false)}, {"full.tfx", full_tfx},
           {"uv3.tfx", smallTfx3()},    {"plain3.tfx", smallTfx3(false)}, {"full3.tfx", full_tfx3},
+          {"narrow.data", smallStrandData(3)}, {"wide.bin", smallStrandData(7)},
           {"odd.hair", smallHair(7)},  {"plain.hair", smallHair(2)},   {"full.hair", smallHair(63)}};
+}
+
+// The library's own PLY file of an asset with every array.
+Bytes writtenPly() {
+  const auto loaded = load(smallHair(63));
+  FlkResult result;
+  Bytes file;
+  file.bytes = saved(loaded->asset.get(), FLK_FORMAT_PLY, result);
+  return file;
+}
+
+std::vector<Seed> textSeeds() {
+  return {{"text.tfx", Bytes().text(smallTfxText())}, {"text.ply", Bytes().text(smallPlyText())}, {"written.ply", writtenPly()}};
+}
+
+std::vector<Seed> allSeeds() {
+  std::vector<Seed> all = seeds();
+  for (Seed& seed : textSeeds()) all.push_back(std::move(seed));
+  return all;
 }
 
 FlkResult loadWith(const Bytes& bytes, CountingAllocator& counter, FlkAsset* asset, Caught* caught = nullptr) {
@@ -50,8 +70,19 @@ TEST(Mutation, TruncatedAtEveryLength) {
   }
 }
 
+// Text has no last byte that must be there: cut inside its last number it may still be read.
+TEST(Mutation, TextTruncatedAtEveryLength) {
+  for (const Seed& seed : textSeeds()) {
+    ASSERT_EQ(load(seed.bytes, seed.name)->result, FLK_SUCCESS) << seed.name;
+    for (size_t length = 0; length + 6 < seed.bytes.size(); ++length) {
+      const auto loaded = load(seed.bytes.cut(length), seed.name);
+      EXPECT_NE(loaded->result, FLK_SUCCESS) << seed.name << " cut at " << length;
+    }
+  }
+}
+
 TEST(Mutation, EveryByteReplaced) {
-  for (const Seed& seed : seeds())
+  for (const Seed& seed : allSeeds())
     for (size_t at = 0; at < seed.bytes.size(); ++at) {
       const unsigned char old = seed.bytes.bytes[at];
       for (const int value : {0x00, 0x01, 0x7f, 0x80, 0xff, old ^ 0x01, old ^ 0x80, old + 1, old - 1}) {
@@ -68,7 +99,7 @@ TEST(Mutation, EveryByteReplaced) {
 }
 
 TEST(Mutation, EveryWordReplaced) {
-  for (const Seed& seed : seeds())
+  for (const Seed& seed : allSeeds())
     for (size_t at = 0; at + 4 <= seed.bytes.size(); at += 2)
       for (const uint32_t value : {0u, 1u, 0x7fffffffu, 0x80000000u, 0xffffffffu, 0x7f800000u, 0x7fc00000u, 0x00000001u,
                                    0x10000001u, 0x40000000u, 0x7f7fffffu}) {
@@ -81,7 +112,7 @@ TEST(Mutation, EveryWordReplaced) {
 TEST(Mutation, EveryAllocationRefused) {
   Bytes defective = smallTfx();
   defective.setU32(160, 0x7fc00000u).zeros(1);  // a dropped strand and findings that need sentences
-  std::vector<Seed> all = seeds();
+  std::vector<Seed> all = allSeeds();
   all.push_back({"defective.tfx", defective});
   for (const Seed& seed : all) {
     bool completed = false;

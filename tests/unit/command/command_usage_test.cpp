@@ -49,6 +49,10 @@ TEST(CommandUsage, WrongUsageIsTwo) {
   expectComplaint(runCommand("plan x.tfx --hair-color brown"), 2, "--hair-color is brown");
   expectComplaint(runCommand("plan x.tfx --k 12 --k-sort 4"), 2, "k-sort is 4");
   expectComplaint(runCommand("plan x.tfx --head --no-head"), 2, "--no-head");
+  expectComplaint(runCommand("convert x.tfx y.ply --axes x,y"), 2, "three axes like x,-z,y");
+  expectComplaint(runCommand("convert x.tfx y.ply --scale -1"), 2, "--scale");
+  expectComplaint(runCommand("convert x.tfx y.ply --resample 1"), 2, "--resample");
+  expectComplaint(runCommand("convert x.tfx y.obj"), 2, "no writer for this extension");
   expectComplaint(runCommand("preview x.tfx"), 2, "--out");
   expectComplaint(runCommand("report"), 2, "DIR");
   expectComplaint(runCommand("report study --error speed"), 2, "rmse_forward");

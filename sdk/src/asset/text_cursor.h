@@ -1,0 +1,73 @@
+// Words of a text file: what Cursor is for binary ones. Commas count as white space, because some exporters write them between numbers.
+// Numbers are read the same whatever the locale.
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+namespace forelock {
+
+class TextCursor {
+public:
+  explicit TextCursor(std::span<const std::byte> bytes) noexcept
+      : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), at_(text_.starts_with("\xef\xbb\xbf") ? 3 : 0) {}
+
+  uint64_t at() const noexcept { return at_; }              // byte
+  uint64_t word_at() const noexcept { return word_at_; }    // of the word read last
+  uint64_t line() const noexcept { return line_; }          // from 1, of the word read last
+  uint64_t left() const noexcept { return text_.size() - at_; }
+
+  // Empty at the end.
+  std::string_view word() noexcept {
+    while (at_ < text_.size() && isSpace(text_[at_])) line_ += text_[at_++] == '\n';
+    word_at_ = at_;
+    while (at_ < text_.size() && !isSpace(text_[at_])) ++at_;
+    return text_.substr(word_at_, at_ - word_at_);
+  }
+
+  std::string_view peek() const noexcept {
+    TextCursor ahead = *this;
+    return ahead.word();
+  }
+
+  void skipLine() noexcept {
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+  }
+
+  // The rest of the line, without its end.
+  std::string_view restOfLine() noexcept {
+    const uint64_t from = at_;
+    skipLine();
+    const std::string_view rest = text_.substr(from, at_ - from);
+    return rest.ends_with('\r') ? rest.substr(0, rest.size() - 1) : rest;
+  }
+
+  // False: `text` is no such number as a whole.
+  template <class T> static bool parse(std::string_view text, T& value) noexcept {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    const char* end = text.data() + text.size();
+    const std::from_chars_result result = std::from_chars(text.data(), end, value);
+    // Too large or too small for a float is a number all the same: the first is found to be beyond all bounds, the second is 0.
+    if constexpr (std::is_floating_point_v<T>) {
+      if (result.ec == std::errc::result_out_of_range && result.ptr == end) {
+        double wide = 0;
+        std::from_chars(text.data(), end, wide);
+        value = static_cast<T>(wide);
+        return true;
+      }
+    }
+    return result.ec == std::errc() && result.ptr == end && !text.empty();
+  }
+
+private:
+  static bool isSpace(char c) noexcept { return c == ' ' || c == ',' || (c >= '\t' && c <= '\r'); }
+
+  std::string_view text_;
+  uint64_t at_ = 0, word_at_ = 0, line_ = 1;
+};
+
+}  // namespace forelock

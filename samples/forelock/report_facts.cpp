@@ -188,6 +188,13 @@ StudyFacts::StudyFacts(const StudyTable& study, const std::string& error_column)
   }
 }
 
+double StudyFacts::timeOf(const StudyRow& row) const {
+  const StudyRow* base = baseRow({row.view, row.capture, row.hair_colour}, "core_tail");
+  // The baseline of a row has its lights and its shadow map.
+  const bool alike = base && base->lights == row.lights && base->shadow_size == row.shadow_size;
+  return alike && &row != base && base->ms_total > 0.0 && row.pair_ratio > 0.0 ? base->ms_total / row.pair_ratio : row.ms_total;
+}
+
 bool StudyFacts::isPlotted(const StudyRow& row) const {
   return row.ms_total > 0.0 && std::isfinite(errorOf(row));
 }

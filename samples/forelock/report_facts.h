@@ -70,6 +70,9 @@ class StudyFacts {
   size_t replaced_rows = 0;       // measured again later in the table
 
   double errorOf(const StudyRow& row) const { return row.*error->number; }
+  // Its time as it compares with the other rows of its setting: the ratio to core_tail in alternating frames, times core_tail's median,
+  // where the study has both; else its own median. A machine that is busy for a while slows both frames of a pair.
+  double timeOf(const StudyRow& row) const;
   // A time and an error to plot, and the study called it a success.
   bool isPlotted(const StudyRow& row) const;
   std::vector<const StudyRow*> rows(const Setting& setting) const;

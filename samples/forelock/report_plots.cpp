@@ -222,7 +222,7 @@ std::string frontText(const StudyFacts& facts, const std::vector<std::pair<const
   for (size_t i = 0; i < front.size(); ++i) {
     const auto& [series, row] = front[i];
     if (i > 0) text += i + 1 == front.size() ? " and " : ", ";
-    text += series->method + (series->dial ? " at " + pointMark(*series, *row) : "") + " (" + readableNumber(row->ms_total) +
+    text += series->method + (series->dial ? " at " + pointMark(*series, *row) : "") + " (" + readableNumber(facts.timeOf(*row)) +
             " ms, " + readableNumber(facts.errorOf(*row)) + ")";
     if (i == 5 && front.size() > 7) {
       text += " and " + std::to_string(front.size() - 6) + " more";
@@ -244,6 +244,7 @@ std::string coreTailText(const StudyFacts& facts, const Setting& setting) {
 void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main) {
   const StudyFacts& facts = drawing.facts;
   const std::vector<Series> all = facts.errorSeries(setting);
+  const auto scaled = [&](const StudyRow& row, double ms) { return ms * facts.timeOf(row) / row.ms_total; };
   std::vector<PlanePoint> points;
   std::vector<std::pair<const Series*, const StudyRow*>> of_point;
   double least_ms = HUGE_VAL, most_ms = 0.0;
@@ -252,7 +253,7 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
   std::set<const StudyRow*> known;
   for (const Series& series : all) {
     for (const StudyRow* row : series.rows) {
-      for (const double ms : {row->ms_total, row->ms_p5, row->ms_p95}) {
+      for (const double ms : {facts.timeOf(*row), scaled(*row, row->ms_p5), scaled(*row, row->ms_p95)}) {
         if (ms > 0.0) least_ms = std::min(least_ms, ms), most_ms = std::max(most_ms, ms);
       }
       errors.push_back(facts.errorOf(*row));
@@ -260,7 +261,7 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
       if (!whyDoubtful(*row).empty()) {
         hollow += first ? 1 : 0;
       } else if (first) {
-        points.push_back({row->ms_total, facts.errorOf(*row)});
+        points.push_back({facts.timeOf(*row), facts.errorOf(*row)});
         of_point.emplace_back(&series, row);
       }
     }
@@ -278,7 +279,7 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
        << "\n  set bmargin at screen " << number(area.y0 / height) << "\n  set tmargin at screen " << number(area.y1 / height)
        << "\n  set logscale x\n" << (y.logarithmic ? "  set logscale y\n" : "") << "  set xrange " << x.range() << "\n  set yrange "
        << y.range() << "\n  set xtics " << x.ticList() << "\n  set ytics " << y.ticList()
-       << "\n  set xlabel 'time of a frame (ms): median, bars from the 5th to the 95th percentile'\n  set ylabel "
+       << "\n  set xlabel 'time of a frame (ms): ratio to core_tail in pairs, bars from the 5th to the 95th percentile'\n  set ylabel "
        << gnuplotText(errorLabel(*facts.error)) << " offset 1,0\n"
        << "  set key at screen 0.785,0.965 left top Left reverse samplen 2.2 spacing 1.35 textcolor rgb '" << kInk << "'\n"
        << "  unset label\n";
@@ -286,13 +287,13 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
   Labels labels(width, height, area);
   for (const Series& series : all) {
     for (size_t i = 0; i < series.rows.size(); ++i) {
-      const double px = toX(series.rows[i]->ms_total), py = toY(facts.errorOf(*series.rows[i]));
+      const double px = toX(facts.timeOf(*series.rows[i])), py = toY(facts.errorOf(*series.rows[i]));
       labels.keepClear({px - 7, py - 7, px + 7, py + 7}, 2.0);
       if (series.rows[i]->ms_p95 > 0.0 && series.rows[i]->ms_p5 > 0.0) {
-        labels.keepClear({toX(series.rows[i]->ms_p5), py - 2, toX(series.rows[i]->ms_p95), py + 2});
+        labels.keepClear({toX(scaled(*series.rows[i], series.rows[i]->ms_p5)), py - 2, toX(scaled(*series.rows[i], series.rows[i]->ms_p95)), py + 2});
       }
       if (i == 0) continue;
-      const double qx = toX(series.rows[i - 1]->ms_total), qy = toY(facts.errorOf(*series.rows[i - 1]));
+      const double qx = toX(facts.timeOf(*series.rows[i - 1])), qy = toY(facts.errorOf(*series.rows[i - 1]));
       const int steps = static_cast<int>(std::hypot(px - qx, py - qy) / 6.0);
       for (int s = 1; s < steps; ++s) {
         const double t = static_cast<double>(s) / steps, sx = qx + t * (px - qx), sy = qy + t * (py - qy);
@@ -306,7 +307,7 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
     const std::string color = darker(methodStyle(facts, series.method).color, 0.8);
     for (const StudyRow* row : series.rows) {
       if (!known.insert(row).second || ++marks > 400) continue;
-      labels.place(body, toX(row->ms_total), toY(facts.errorOf(*row)), pointMark(series, *row), color);
+      labels.place(body, toX(facts.timeOf(*row)), toY(facts.errorOf(*row)), pointMark(series, *row), color);
     }
   }
 
@@ -319,8 +320,9 @@ void drawErrorAgainstTime(Drawing& drawing, const Setting& setting, bool is_main
     data << "# " << gnuplotText(title) << ": ms, error, ms p5, ms p95, trusted, dial\n";
     for (const StudyRow* row : rows) {
       const std::string value = dial ? cellText(*row, *findStudyColumn(dial->column)) : "-";
-      data << number(row->ms_total) << '\t' << number(facts.errorOf(*row)) << '\t' << number(row->ms_p5 > 0.0 ? row->ms_p5 : row->ms_total)
-           << '\t' << number(row->ms_p95 > 0.0 ? row->ms_p95 : row->ms_total) << '\t' << (whyDoubtful(*row).empty() ? 1 : 0) << '\t'
+      data << number(facts.timeOf(*row)) << '\t' << number(facts.errorOf(*row)) << '\t'
+           << number(scaled(*row, row->ms_p5 > 0.0 ? row->ms_p5 : row->ms_total)) << '\t'
+           << number(scaled(*row, row->ms_p95 > 0.0 ? row->ms_p95 : row->ms_total)) << '\t' << (whyDoubtful(*row).empty() ? 1 : 0) << '\t'
            << gnuplotText(value) << '\n';
     }
     data << "\n\n";

@@ -44,6 +44,18 @@ TEST(ReportFacts, ReadableNumbers) {
   EXPECT_EQ(readableCount(1000.0), "1,000");
 }
 
+TEST(ReportFacts, TimesAreThoseOfPairs) {
+  const StudyTable table = tableOf({goodRow("core_tail", 0.7, 1), changed(goodRow("forward", 1.4, 1), {{"ms_total", "2.1"}}),
+                                    changed(goodRow("exact", 1, 1), {{"ms_total", "1.5"}, {"shadow_size", "512"}}),
+                                    changed(goodRow("all_low", 1, 1), {{"pair_ratio", ""}}), changed(goodRow("core_only", 0.3, 1), {{"view", "35k"}})});
+  const StudyFacts facts(table, "rmse_exact");
+  EXPECT_NEAR(facts.timeOf(table.rows[0]), 0.7, 1e-9) << "the baseline is its own";
+  EXPECT_NEAR(facts.timeOf(table.rows[1]), 1.4, 1e-5) << "it was busy, but so was the baseline beside it";
+  EXPECT_NEAR(facts.timeOf(table.rows[2]), 1.5, 1e-9) << "its baseline had another shadow map";
+  EXPECT_NEAR(facts.timeOf(table.rows[3]), 1, 1e-9) << "no pairs";
+  EXPECT_NEAR(facts.timeOf(table.rows[4]), 0.3, 1e-9) << "no baseline in its view";
+}
+
 TEST(ReportFacts, DoubtIsSaid) {
   const StudyTable table = tableOf({goodRow("a", 1, 1), changed(goodRow("b", 1, 1), {{"deterministic", "0"}}),
                                     changed(goodRow("c", 1, 1), {{"pair_spread", "0.3"}}), changed(goodRow("d", 1, 1), {{"status", "not finite"}}),

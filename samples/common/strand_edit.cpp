@@ -40,14 +40,10 @@ FlkStrands EditableStrands::view() const {
           orNone(inverse_masses), orNone(colors)};
 }
 
-EditableStrands editableStrands(FlkAsset asset) {
-  FlkStrands held{};
-  FlkAssetInfo info{};
-  flkAssetGetStrands(asset, &held);
-  flkAssetGetInfo(asset, &info);
+EditableStrands editableStrands(const FlkStrands& held, bool with_radii) {
   const size_t vertices = held.vertex_count, strands = held.strand_count;
   const auto copy = [](const float* values, size_t count) { return values ? std::vector<float>(values, values + count) : std::vector<float>(); };
-  return {{held.first_vertex, held.first_vertex + strands + 1}, copy(held.positions, 3 * vertices), copy(info.has_radii ? held.radii : nullptr, vertices),
+  return {{held.first_vertex, held.first_vertex + strands + 1}, copy(held.positions, 3 * vertices), copy(with_radii ? held.radii : nullptr, vertices),
           copy(held.root_uvs, 2 * strands), copy(held.inverse_masses, vertices), copy(held.colors, 3 * vertices)};
 }
 

@@ -21,8 +21,8 @@ struct EditableStrands {
   FlkStrands view() const;
 };
 
-// Default widths are none of the asset's own and are left out.
-EditableStrands editableStrands(FlkAsset asset);
+// with_radii: false where the widths are a default, which are none of the asset's own.
+EditableStrands editableStrands(const FlkStrands& held, bool with_radii);
 
 // Positions and widths times `factor`.
 void scaleStrands(EditableStrands& strands, double factor);

@@ -46,7 +46,11 @@ std::vector<AssetMessage> rehearse(const OpenedAsset& opened, uint32_t format) {
 
 // Says what it did, a line each, in the order in which it does it.
 void edit(OpenedAsset& opened, const ConvertArguments& arguments) {
-  EditableStrands strands = editableStrands(opened.asset.get());
+  FlkStrands held{};
+  FlkAssetInfo info{};
+  flkAssetGetStrands(opened.asset.get(), &held);
+  flkAssetGetInfo(opened.asset.get(), &info);
+  EditableStrands strands = editableStrands(held, info.has_radii != 0);
   if (arguments.reverse) reverseStrands(strands), std::printf("reversed: roots are where tips were\n");
   if (!arguments.axes.empty()) {
     const AxisMap map = parseAxes(arguments.axes);

@@ -133,20 +133,14 @@ Recipe openRecipe(const std::string& source) {
 }
 
 OpenedAsset growAsset(const Recipe& recipe, const std::string& label, const ProgressFunction& progress) {
-  FlkAssetOptions options;
-  OpenedAsset opened = prepare(label, options);
-  FlkAsset asset = nullptr;
-  FlkResult result = FLK_SUCCESS;
   try {
     const Groom groom = makeGroom(recipe, progress);
-    const FlkStrands strands = describeGroom(groom);
-    result = flkAssetCreate(&strands, &options, &asset);
+    OpenedAsset opened = assetOf(describeGroom(groom), label);
+    opened.recipe = recipe;
+    return opened;
   } catch (const RecipeError& error) {
     throw AssetError(FLK_ERROR_INVALID_ARGUMENT, label + ": " + error.what());
   }
-  finish(opened, result, asset);
-  opened.recipe = recipe;
-  return opened;
 }
 
 OpenedAsset assetOf(const FlkStrands& strands, const std::string& label) {

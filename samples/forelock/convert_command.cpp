@@ -28,7 +28,7 @@ constexpr const char* kExamples =
     "  forelock convert pony.tfx pony.hair\n"
     "  forelock convert pony.tfx pony.ply               keeps everything; any viewer of PLY files shows its lines\n"
     "  forelock convert groom:long-wavy hair.tfx\n"
-    "  forelock convert cm.hair game.tfx --scale 0.01 --axes x,-z,y --resample 16\n"
+    "  forelock convert cm.hair game.tfx --scale 0.01 --axes x,z,-y --resample 16\n"
     "  forelock convert --strict pony.hair pony.tfx     fail, and write nothing, if anything is lost\n";
 
 bool saysDropped(const AssetMessage& message) { return message.id.rfind("WRITE_DROPS_", 0) == 0; }
@@ -125,7 +125,7 @@ void addConvertCommand(CLI::App& program, int& exit_code) {
   command->add_option("OUT", arguments->out, "The file to write: .hair, .ply or .tfx")->required();
   command->add_flag("--strict", arguments->strict, "Fail instead of leaving out what the target cannot hold");
   command->add_option("--scale", arguments->scale, "Positions and widths times this: 0.01 makes metres of centimetres")->check(CLI::PositiveNumber);
-  command->add_option("--axes", arguments->axes, "New axes from old ones: x,-z,y makes y up of z up")->check([](const std::string& text) {
+  command->add_option("--axes", arguments->axes, "New axes from old ones: x,z,-y makes y up of z up, x,-z,y the other way")->check([](const std::string& text) {
     try {
       parseAxes(text);
       return std::string();

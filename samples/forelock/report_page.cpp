@@ -211,7 +211,8 @@ class Page {
     text("<b>Errors</b> are root mean squares over the hair pixels in linear colour, 0 to 255 a channel, the three channels' squares summed, so "
          "that 442 is the most; against <i>R_exact</i>, all fragments shaded in full and blended in order in double precision, unless said "
          "otherwise. Lights are scaled until the mean of R_exact is 64 (dark hair) or 128 (light hair) of 255. "
-         "<b>Times</b> are medians of GPU time over the frames timed, of all passes together, hair shadow maps included.");
+         "<b>Times</b> are medians of GPU time over the frames timed, of all passes together, hair shadow maps included. "
+         "Of error against time they are ratios to core_tail in alternating frames, where the study has them, times core_tail's median.");
     std::vector<std::string> notes = facts.table.warnings;
     notes.insert(notes.end(), input.plots.problems.begin(), input.plots.problems.end());
     notes.insert(notes.end(), input.pictures.problems.begin(), input.pictures.problems.end());

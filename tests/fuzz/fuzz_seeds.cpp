@@ -1,6 +1,7 @@
 // fuzz_seeds tfx|hair|text|data|ply FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by
 // hand; what the SDK does not write, by hand altogether.
 #include "asset_invariants.h"
+#include "text_files.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -54,7 +55,7 @@ std::vector<unsigned char> tfx3(bool all_arrays) {
   return bytes;
 }
 
-std::vector<unsigned char> bytesOf(const char* text) { return {text, text + std::strlen(text)}; }
+std::vector<unsigned char> bytesOf(const std::string& text) { return {text.begin(), text.end()}; }
 
 std::vector<unsigned char> strandData(size_t floats) {
   std::vector<unsigned char> bytes(4);
@@ -68,16 +69,6 @@ std::vector<unsigned char> strandData(size_t floats) {
   return bytes;
 }
 
-constexpr const char* kText =
-    "version 2.0\nscale 1.0\nrotation 0 0 0\ntranslation 0 0 0\nbothEndsImmovable 1\nmaxNumVerticesInStrand 16\nnumFollowHairsPerGuideHair 4\n"
-    "maxRadiusAroundGuideHair 0.5\nnumStrands 2\nis sorted 1\nstrand 0 numVerts 2 texcoord 0.25 0.5\n0 0.125 0.25\n000000 0.5 1e-1\n"
-    "strand 1 numVerts 3 texcoord 0.75,0.5\n1, 2, 3\n1.5, +2, -3\n.5, 2, 3.25\n";
-constexpr const char* kPly =
-    "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 4\nproperty float x\nproperty float y\nproperty double z\nproperty uchar red\n"
-    "property uchar green\nproperty uchar blue\nproperty float thickness\nelement strand 2\nproperty ushort nsegs\nproperty float u\nproperty float v\n"
-    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 255 0 0 0.5\n0 1 0 0 255 0 0.5\n1 0 0 0 0 255 0.25\n1 1 0 1 2 3 0.125\n"
-    "1 0.5 0.5\n1 0.25 0.75\n3 0 1 2\n";
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -86,14 +77,14 @@ int main(int argc, char** argv) {
   const bool tfx = kind == "tfx";
   const std::filesystem::path folder = argv[2];
   std::filesystem::create_directories(folder);
-  if (kind == "text") return put(folder / "text", bytesOf(kText)) ? 0 : 1;
+  if (kind == "text") return put(folder / "text", bytesOf(asset_test::smallTfxText())) ? 0 : 1;
   if (kind == "data") return put(folder / "narrow", strandData(3)) && put(folder / "wide", strandData(7)) ? 0 : 1;
   if (kind == "ply") {
     FlkAsset asset = makeAsset(false);
     FlkResult result = FLK_SUCCESS;
     const std::vector<unsigned char> bytes = asset_test::saved(asset, FLK_FORMAT_PLY, result);
     flkAssetDestroy(asset);
-    return result == FLK_SUCCESS && put(folder / "ascii", bytesOf(kPly)) && put(folder / "written", bytes) ? 0 : 1;
+    return result == FLK_SUCCESS && put(folder / "ascii", bytesOf(asset_test::smallPlyText())) && put(folder / "written", bytes) ? 0 : 1;
   }
   bool written = !tfx || (put(folder / "version-3", tfx3(false)) && put(folder / "version-3-all-arrays", tfx3(true)));
   for (const bool equal : {true, false}) {

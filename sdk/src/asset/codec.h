@@ -8,6 +8,11 @@
 
 namespace forelock {
 
+// Before version 4 TressFX files have no masses: a strand's first two vertices are held, and the last two where both ends are.
+inline float impliedInverseMass(uint64_t from_root, uint64_t vertices, bool both_ends) noexcept {
+  return from_root < 2 || (both_ends && from_root + 2 >= vertices) ? 0.0f : 1.0f;
+}
+
 struct Codec {
   uint32_t format;
 

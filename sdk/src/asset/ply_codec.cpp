@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-enum class Type : uint8_t { none, i8, u8, i16, u16, i32, u32, f32, f64 };
+enum class Type : uint8_t { i8, u8, i16, u16, i32, u32, f32, f64 };
 
 struct TypeName {
   std::string_view name;
@@ -173,7 +173,6 @@ public:
       case Type::u32: return static_cast<uint32_t>(whole(4));
       case Type::f32: return std::bit_cast<float>(static_cast<uint32_t>(whole(4)));
       case Type::f64: return std::bit_cast<double>(whole(8));
-      case Type::none: break;
     }
     return 0;
   }

@@ -38,14 +38,6 @@ public:
     while (at_ < text_.size() && text_[at_] != '\n') ++at_;
   }
 
-  // The rest of the line, without its end.
-  std::string_view restOfLine() noexcept {
-    const uint64_t from = at_;
-    skipLine();
-    const std::string_view rest = text_.substr(from, at_ - from);
-    return rest.ends_with('\r') ? rest.substr(0, rest.size() - 1) : rest;
-  }
-
   // False: `text` is no such number as a whole.
   template <class T> static bool parse(std::string_view text, T& value) noexcept {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);

@@ -150,13 +150,9 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
     data.floats(arrays.positions);
     const uint32_t follow_strands = header.u32();
     if (follow_strands) findings.note(FindingKind::tfx_follow_strands_ignored, no_strand, 12, follow_strands);
-    // The file has no masses: which vertices TressFX 3 holds fast follows from the header alone.
     const bool both_ends = header.u32() != 0;
-    for (uint64_t vertex = 0; vertex < vertices; ++vertex) {
-      const uint64_t from_root = vertex % vertices_per_strand;
-      const bool pinned = from_root < 2 || (both_ends && from_root + 2 >= vertices_per_strand);
-      arrays.inverse_masses[vertex] = pinned ? 0.0f : 1.0f;
-    }
+    for (uint64_t vertex = 0; vertex < vertices; ++vertex)
+      arrays.inverse_masses[vertex] = impliedInverseMass(vertex % vertices_per_strand, vertices_per_strand, both_ends);
   } else {
     for (uint64_t vertex = 0; vertex < vertices; ++vertex) {
       data.floats({arrays.positions.data() + vertex * 3, 3});

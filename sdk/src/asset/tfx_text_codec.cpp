@@ -1,6 +1,6 @@
 // TressFX 1 and 2 (.tfx as text): lines of a key and its values, the last of them numStrands; then for each strand a line
-// "strand I numVerts N texcoord U V" and a line a vertex, x y z. White space or commas divide numbers. Masses are not in it: as in
-// TressFX 3 the first two vertices are held, and the last two where the header says that both ends are.
+// "strand I numVerts N texcoord U V" and a line a vertex, x y z. White space or commas divide numbers. Masses are not in it
+// (impliedInverseMass).
 #include "asset/codec.h"
 #include "asset/text_cursor.h"
 
@@ -147,8 +147,7 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
       for (float& value : xyz)
         if (word = text.word(); !TextCursor::parse(word, value)) return notNumber(report, text, "a coordinate", word);
       arrays.positions.insert(arrays.positions.end(), {xyz[0], xyz[1], xyz[2]});
-      const bool held = i < 2 || (header.both_ends != 0 && i + 2 >= count);
-      arrays.inverse_masses.push_back(held ? 0.0f : 1.0f);
+      arrays.inverse_masses.push_back(impliedInverseMass(static_cast<uint64_t>(i), static_cast<uint64_t>(count), header.both_ends != 0));
     }
     arrays.first_vertex.push_back(arrays.vertexCount() + static_cast<uint32_t>(count));
   }

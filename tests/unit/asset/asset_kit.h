@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../../fuzz/asset_invariants.h"
+#include "../../fuzz/text_files.h"
 
 #include <gtest/gtest.h>
 
@@ -192,6 +193,20 @@ inline std::unique_ptr<Loaded> load(const Bytes& bytes, const char* name = "seed
   return loaded;
 }
 
+// Refused with this result and message id, in a sentence that says `says`.
+inline void expectRefused(const Bytes& file, const char* name, FlkResult result, const char* id, const std::string& says) {
+  const auto loaded = load(file, name);
+  EXPECT_EQ(loaded->result, result) << flkResultName(loaded->result) << "\n" << loaded->caught.text();
+  EXPECT_EQ(loaded->caught.error(), id) << loaded->caught.text();
+  EXPECT_NE(loaded->caught.text().find(says), std::string::npos) << loaded->caught.text();
+}
+
+inline std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  const size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), with);
+}
+
 // Three strands of four vertices, with UVs unless asked otherwise: 160 + 192 + 24 bytes.
 inline Bytes smallTfx(bool with_uvs = true) {
   Bytes file;
@@ -234,14 +249,6 @@ inline Bytes smallHair(unsigned flags = 7) {
   return file;
 }
 
-// Two strands of 2 and 3 vertices.
-inline std::string smallTfxText() {
-  return "version 2.0\nscale 1.0\nrotation 0 0 0\ntranslation 0.0 0.0 0.0\nbothEndsImmovable 1\nmaxNumVerticesInStrand 16\n"
-         "numFollowHairsPerGuideHair 0\nmaxRadiusAroundGuideHair 0.5\nnumStrands 2\nis sorted 1\n"
-         "strand 0 numVerts 2 texcoord 0.25 0.5\n0.0 0.125 0.25\n000000 0.5 1e-1\n"
-         "strand 1 numVerts 3 texcoord 0.75,0.5\n1, 2, 3\n1.5, +2, -3\n.5, 2, 3.25\n";
-}
-
 // Three strands of 2, 1 and 3 points, `floats` a point.
 inline Bytes smallStrandData(int floats = 3) {
   Bytes file;
@@ -253,15 +260,6 @@ inline Bytes smallStrandData(int floats = 3) {
       for (int i = 0; i < floats; ++i) file.f32(at += 0.125f);
   }
   return file;
-}
-
-// Two strands of 2 and 3 vertices with everything, as text.
-inline std::string smallPlyText() {
-  return "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 5\nproperty float x\nproperty float y\nproperty double z\nproperty uchar red\n"
-         "property uchar green\nproperty uchar blue\nproperty uchar alpha\nproperty float thickness\nelement strand 2\nproperty ushort nsegs\n"
-         "element edge 3\nproperty list uchar int ends\nend_header\n"
-         "0 0 0 255 0 0 255 0.5\n0 1 0 0 255 0 255 0.25\n1 0 0 0 0 255 255 0.5\n1 1 0 51 51 51 255 0.25\n1 2 0.125 0 0 0 0 0.125\n1\n2\n"
-         "2 0 1\n2 2 3\n2 3 4\n";
 }
 
 }  // namespace asset_test

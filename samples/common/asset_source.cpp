@@ -54,6 +54,9 @@ void finish(OpenedAsset& opened, FlkResult result, FlkAsset asset) {
     throw AssetError(result, lastError(*opened.messages, opened.label, result));
   }
   opened.asset.reset(asset);
+  FlkAssetInfo info{};
+  flkAssetGetInfo(asset, &info);
+  opened.format = formatName(info.format);
 }
 
 bool isName(const std::string& text) {
@@ -137,9 +140,34 @@ OpenedAsset growAsset(const Recipe& recipe, const std::string& label, const Prog
     const Groom groom = makeGroom(recipe, progress);
     OpenedAsset opened = assetOf(describeGroom(groom), label);
     opened.recipe = recipe;
+    opened.format = "groom";
     return opened;
   } catch (const RecipeError& error) {
     throw AssetError(FLK_ERROR_INVALID_ARGUMENT, label + ": " + error.what());
+  }
+}
+
+std::vector<AssetFinding> findingsOf(const OpenedAsset& opened) {
+  std::vector<AssetFinding> findings = opened.source_findings;
+  FlkAssetInfo info{};
+  flkAssetGetInfo(opened.asset.get(), &info);
+  for (uint32_t i = 0; i < info.finding_count; ++i) {
+    FlkFinding finding{};
+    flkAssetGetFinding(opened.asset.get(), i, &finding);
+    findings.push_back({finding.code, finding.text, finding.severity, finding.repaired != 0, finding.count,
+                        {finding.strands, finding.strands + finding.strands_listed}, finding.byte_offset});
+  }
+  return findings;
+}
+
+const char* formatName(uint32_t format) {
+  switch (format) {
+    case FLK_FORMAT_TFX: return "tfx";
+    case FLK_FORMAT_HAIR: return "hair";
+    case FLK_FORMAT_TFX_TEXT: return "tfx text";
+    case FLK_FORMAT_STRAND_DATA: return "strand data";
+    case FLK_FORMAT_PLY: return "ply";
+    default: return "arrays";
   }
 }
 

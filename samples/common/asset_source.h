@@ -31,6 +31,16 @@ struct AssetDeleter {
 };
 using AssetHandle = std::unique_ptr<FlkAsset_T, AssetDeleter>;
 
+// A finding (FlkFinding) that does not depend on its asset's life.
+struct AssetFinding {
+  std::string code, text;
+  uint32_t severity = 0;  // FLK_SEVERITY_...
+  bool repaired = false;
+  uint64_t count = 0;
+  std::vector<uint32_t> strands;      // the first ones, numbered as in the source
+  uint64_t byte_offset = UINT64_MAX;  // UINT64_MAX: none
+};
+
 struct OpenedAsset {
   // What the library said while opening, and says later about this asset. Not moved while the asset lives: the asset
   // holds a pointer to it. Declared first, so that it is destroyed last.
@@ -38,7 +48,17 @@ struct OpenedAsset {
   AssetHandle asset;
   std::string label;             // as the user wrote it
   std::optional<Recipe> recipe;  // of a groom: its cameras and description
+  std::string format;            // a word for it: "tfx", "groom"
+  std::vector<AssetFinding> source_findings;  // of a reader that is not the library's
+  std::vector<uint32_t> groups;               // of each strand an index into group_names; empty: the source has no groups
+  std::vector<std::string> group_names;
 };
+
+// "tfx", "hair", ...; "arrays" where it was no file.
+const char* formatName(uint32_t format);
+
+// All findings: of the reader, then of the library.
+std::vector<AssetFinding> findingsOf(const OpenedAsset& opened);
 
 // Called from any thread with work done and work to do.
 using ProgressFunction = std::function<void(uint64_t done, uint64_t total)>;

@@ -38,7 +38,6 @@ void printMessages(const std::vector<AssetMessage>& messages, bool with_info);
 std::string groupedDigits(uint64_t number);
 std::string readableBytes(uint64_t bytes);
 
-const char* formatName(uint32_t format);
 const char* severityName(uint32_t severity);
 
 }  // namespace forelock::samples

@@ -24,20 +24,9 @@ constexpr const char* kExamples =
     "  forelock inspect groom:long-wavy --json\n"
     "  forelock inspect --strict pony.hair && echo clean     exit status 1 on any warning or error\n";
 
-std::vector<FlkFinding> allFindings(FlkAsset asset, uint32_t count) {
-  std::vector<FlkFinding> findings;
-  for (uint32_t i = 0; i < count; ++i) {
-    FlkFinding finding = {};
-    if (flkAssetGetFinding(asset, i, &finding) == FLK_SUCCESS) {
-      findings.push_back(finding);
-    }
-  }
-  return findings;
-}
-
-void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::vector<FlkFinding>& findings) {
+void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::vector<AssetFinding>& findings) {
   std::printf("%s\n", opened.label.c_str());
-  std::printf("  format      %s\n", opened.recipe ? "groom recipe" : formatName(info.format));
+  std::printf("  format      %s\n", opened.format.c_str());
   std::printf("  strands     %s", groupedDigits(info.strand_count).c_str());
   if (info.strands_in_source != info.strand_count) {
     std::printf(" of %s (the rest cannot be drawn)", groupedDigits(info.strands_in_source).c_str());
@@ -60,16 +49,16 @@ void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
   if (findings.empty()) {
     std::printf("  findings    none\n");
   }
-  for (const FlkFinding& finding : findings) {
-    std::printf("  %-11s %s x %s%s\n", severityName(finding.severity), finding.code,
+  for (const AssetFinding& finding : findings) {
+    std::printf("  %-11s %s x %s%s\n", severityName(finding.severity), finding.code.c_str(),
                 groupedDigits(finding.count).c_str(), finding.repaired ? ", repaired" : "");
-    std::printf("              %s\n", finding.text);
-    if (finding.strands_listed > 0) {
+    std::printf("              %s\n", finding.text.c_str());
+    if (!finding.strands.empty()) {
       std::printf("              strands");
-      for (uint32_t i = 0; i < finding.strands_listed; ++i) {
-        std::printf(" %u", finding.strands[i]);
+      for (const uint32_t strand : finding.strands) {
+        std::printf(" %u", strand);
       }
-      std::printf("%s\n", finding.count > finding.strands_listed ? " ..." : "");
+      std::printf("%s\n", finding.count > finding.strands.size() ? " ..." : "");
     }
     if (finding.byte_offset != UINT64_MAX) {
       std::printf("              first at byte %s\n", groupedDigits(finding.byte_offset).c_str());
@@ -77,10 +66,10 @@ void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
   }
 }
 
-void printJson(const OpenedAsset& opened, const FlkAssetInfo& info, const std::vector<FlkFinding>& findings) {
+void printJson(const OpenedAsset& opened, const FlkAssetInfo& info, const std::vector<AssetFinding>& findings) {
   nlohmann::ordered_json json;
   json["asset"] = opened.label;
-  json["format"] = opened.recipe ? "groom" : formatName(info.format);
+  json["format"] = opened.format;
   json["strands"] = info.strand_count;
   json["strands_in_source"] = info.strands_in_source;
   json["vertices"] = info.vertex_count;
@@ -96,13 +85,13 @@ void printJson(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
                         {"colors", info.has_colors != 0}};
   json["bytes_host"] = info.bytes_host;
   json["findings"] = nlohmann::ordered_json::array();
-  for (const FlkFinding& finding : findings) {
+  for (const AssetFinding& finding : findings) {
     nlohmann::ordered_json entry;
     entry["code"] = finding.code;
     entry["severity"] = severityName(finding.severity);
-    entry["repaired"] = finding.repaired != 0;
+    entry["repaired"] = finding.repaired;
     entry["count"] = finding.count;
-    entry["strands"] = std::vector<uint32_t>(finding.strands, finding.strands + finding.strands_listed);
+    entry["strands"] = finding.strands;
     entry["byte_offset"] = nullptr;
     if (finding.byte_offset != UINT64_MAX) {
       entry["byte_offset"] = finding.byte_offset;
@@ -122,14 +111,14 @@ int runInspect(const InspectArguments& arguments) {
   }
   FlkAssetInfo info = {};
   flkAssetGetInfo(opened.asset.get(), &info);
-  const std::vector<FlkFinding> findings = allFindings(opened.asset.get(), info.finding_count);
+  const std::vector<AssetFinding> findings = findingsOf(opened);
   if (arguments.json) {
     printJson(opened, info, findings);
   } else {
     printText(opened, info, findings);
   }
   bool clean = true;
-  for (const FlkFinding& finding : findings) {
+  for (const AssetFinding& finding : findings) {
     clean = clean && finding.severity == FLK_SEVERITY_INFO;
   }
   return arguments.strict && !clean ? kFailed : kDone;

@@ -38,17 +38,6 @@ std::string readableBytes(uint64_t bytes) {
   return text;
 }
 
-const char* formatName(uint32_t format) {
-  switch (format) {
-    case FLK_FORMAT_TFX: return "tfx";
-    case FLK_FORMAT_HAIR: return "hair";
-    case FLK_FORMAT_TFX_TEXT: return "tfx text";
-    case FLK_FORMAT_STRAND_DATA: return "strand data";
-    case FLK_FORMAT_PLY: return "ply";
-    default: return "arrays";
-  }
-}
-
 const char* severityName(uint32_t severity) {
   switch (severity) {
     case FLK_SEVERITY_ERROR: return "error";

@@ -109,7 +109,7 @@ void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, 
 // Closes the gaps of dropped strands. Everything moves towards the front, so it can be done in place.
 void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths) {
   uint32_t strands = 0, vertices = 0;
-  const auto move = [](std::pmr::vector<float>& array, std::size_t from, std::size_t to, std::size_t count) {
+  const auto move = [](FloatArray& array, std::size_t from, std::size_t to, std::size_t count) {
     if (array.empty() || from == to) return;
     const auto source = array.begin() + static_cast<std::ptrdiff_t>(from);
     std::copy(source, source + static_cast<std::ptrdiff_t>(count), array.begin() + static_cast<std::ptrdiff_t>(to));

@@ -28,6 +28,7 @@ constexpr const char* kExamples =
     "  forelock convert pony.tfx pony.hair\n"
     "  forelock convert pony.tfx pony.ply               keeps everything; any viewer of PLY files shows its lines\n"
     "  forelock convert groom:long-wavy hair.tfx\n"
+    "  forelock convert pony.hair pony.flk              a cache that loads many times faster; cook it again after an update\n"
     "  forelock convert cm.hair game.tfx --scale 0.01 --axes x,z,-y --resample 16\n"
     "  forelock convert --strict pony.hair pony.tfx     fail, and write nothing, if anything is lost\n";
 
@@ -84,7 +85,7 @@ void edit(OpenedAsset& opened, const ConvertArguments& arguments) {
 int runConvert(const ConvertArguments& arguments) {
   const uint32_t format = formatOfPath(arguments.out);
   if (format == FLK_FORMAT_UNKNOWN) {
-    throw UsageError(arguments.out + ": no writer for this extension, use .tfx, .hair or .ply");
+    throw UsageError(arguments.out + ": no writer for this extension, use .tfx, .hair, .ply or .flk");
   }
   OpenedAsset opened;
   {
@@ -122,7 +123,7 @@ void addConvertCommand(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("convert", "Write an asset in another strand format.");
   auto arguments = std::make_shared<ConvertArguments>();
   command->add_option("IN", arguments->in, "A strand file, a recipe or groom:NAME")->required();
-  command->add_option("OUT", arguments->out, "The file to write: .hair, .ply or .tfx")->required();
+  command->add_option("OUT", arguments->out, "The file to write: .hair, .ply, .tfx or .flk")->required();
   command->add_flag("--strict", arguments->strict, "Fail instead of leaving out what the target cannot hold");
   command->add_option("--scale", arguments->scale, "Positions and widths times this: 0.01 makes metres of centimetres")->check(CLI::PositiveNumber);
   command->add_option("--axes", arguments->axes, "New axes from old ones: x,z,-y makes y up of z up, x,-z,y the other way")->check([](const std::string& text) {

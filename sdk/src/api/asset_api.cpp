@@ -115,7 +115,7 @@ FlkResult flkAssetSaveFile(FlkAsset asset, uint32_t format, const char* path) {
   result = guarded([&] {
     // Its own resource: an asset may be saved by several threads at once.
     HostMemory memory = asset->memory;
-    std::pmr::vector<std::byte> bytes(static_cast<size_t>(needed), &memory);
+    std::vector<std::byte, UnfilledAllocator<std::byte>> bytes(static_cast<size_t>(needed), &memory);
     ByteSink sink{bytes};
     writeAsset(*asset, format, report, sink);
     assert(sink.complete());

@@ -255,7 +255,7 @@ FlkResult Reader::readFindings() {
     const bool strands_exist = std::all_of(finding.strands, finding.strands + 8, [&](uint32_t strand) {
       return strand < asset.info.strands_in_source;  // entries that are not set are 0
     });
-    if (finding.count == 0 || finding.severity > FLK_SEVERITY_ERROR || finding.repaired > 1 || finding.strands_listed > 8 || !strands_exist || zero != 0)
+    if (finding.count == 0 || finding.severity > FLK_SEVERITY_WARNING || finding.repaired > 1 || finding.strands_listed > 8 || !strands_exist || zero != 0)
       return malformed(at, "a finding", "has a count, severity or strand that no finding has");
     if (code_size > longest_code || text_size == 0 || text_size > longest_text || !isCode(code) || !isPrintable(text))
       return malformed(at, "a finding", "has a code or sentence that no finding has");
@@ -272,7 +272,6 @@ FlkResult readCooked(std::span<const std::byte> bytes, Mapping* mapping, const L
   FlkResult result = reader.readHeader(limits);
   if (result != FLK_SUCCESS) return result;
   const bool stays = mapping && !mapping->bytes().empty() && std::endian::native == std::endian::little;
-  if (mapping) mapping->fetch();
   result = reader.readFirstVertex();
   if (result != FLK_SUCCESS) return result;
 

@@ -97,12 +97,6 @@ bool Mapping::map(int fd, uint64_t size) noexcept {
   return true;
 }
 
-void Mapping::fetch() const noexcept {
-#ifdef MADV_POPULATE_READ  // Linux 5.14; unlike a fault it refuses, and does not kill, where the file has been cut off
-  ::madvise(const_cast<std::byte*>(bytes_.data()), bytes_.size(), MADV_POPULATE_READ);
-#endif
-}
-
 FlkResult readFile(const char* path, uint64_t largest, bool must_copy, const Report& report, AcceptHead accept, FileBytes& file_bytes) {
   // Not blocking: opening a pipe that nobody writes to would wait for ever before it could be refused.
   Descriptor file(::open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK));

@@ -27,8 +27,6 @@ public:
   // The first `size` bytes of an open file. False: the system refused, most likely because the file system maps no files.
   bool map(int fd, uint64_t size) noexcept;
   std::span<const std::byte> bytes() const noexcept { return bytes_; }
-  // Asks for all pages at once, which takes less than half the time of a fault for every few. Only a hint.
-  void fetch() const noexcept;
 
 private:
   std::span<const std::byte> bytes_;

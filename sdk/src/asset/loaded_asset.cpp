@@ -96,7 +96,6 @@ FlkResult readAsset(std::span<const std::byte> bytes, Mapping* mapping, const As
     if (result == FLK_SUCCESS) settleAsset(*made), made->findings.tell(report);
   } else {
     Places places;
-    if (mapping) mapping->fetch();
     result = findCodec(format)->read(bytes, settings.limits, report, made->arrays, places, made->findings);
     if (result == FLK_SUCCESS) result = finish(*made, places, format);
   }

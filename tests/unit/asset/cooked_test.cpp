@@ -321,7 +321,7 @@ TEST(Cooked, HostileFindings) {
   const size_t first = static_cast<size_t>(blockOffset(file, 6));
   const auto refused = [&](size_t at, uint64_t value) { expectRefusedSealed(Bytes(file).setU32(first + at, value), "COOKED_FIELD", "a finding (byte "); };
   refused(0, 0);             // count
-  refused(8, 3);             // severity
+  refused(8, 2);             // severity: errors refuse an asset, they are not findings
   refused(12, 2);            // repaired
   refused(16, 9);            // strands listed
   refused(20, 5);            // a strand that the source does not have

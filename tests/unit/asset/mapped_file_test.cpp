@@ -2,8 +2,11 @@
 #include "asset_kit.h"
 #include "temporary_folder.h"
 
+#include <atomic>
 #include <cstdio>
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <thread>
 
 using namespace asset_test;
 
@@ -33,6 +36,13 @@ Bytes longHair(uint32_t strands) {
   file.text("HAIR").u32(strands).u32(strands * 8).u32(2).u32(7).zeros(108);
   for (uint32_t point = 0; point < strands * 8; ++point)
     file.f32s({1e-4f * static_cast<float>(point), 1e-3f * static_cast<float>(point % 8), 0.25f});
+  return file;
+}
+
+Bytes cookedOf(const Bytes& source) {
+  FlkResult result;
+  Bytes file;
+  file.bytes = saved(load(source)->asset.get(), FLK_FORMAT_COOKED, result);
   return file;
 }
 
@@ -145,6 +155,46 @@ TEST(MappedFile, EveryAllocationRefused) {
       }
       EXPECT_EQ(counter.live, 0u) << refuse;
     }
+  }
+}
+
+// Counts that change between two looks at them must not lead outside the arrays. The other writer goes through the file, as another
+// process would.
+TEST(MappedFile, WrittenIntoWhileItIsRead) {
+  const Folder folder;
+  constexpr uint32_t strands = 20'000;
+  Bytes hair, data;
+  hair.text("HAIR").u32(strands).u32(strands * 2).u32(3).zeros(112);
+  data.u32(strands);
+  for (uint32_t strand = 0; strand < strands; ++strand) hair.u16(1);
+  for (uint32_t strand = 0; strand < strands; ++strand) {
+    for (Bytes* file : {&hair, &data}) {
+      if (file == &data) file->u32(2);
+      file->f32s({0.5f, 0, 0, 0.5f, 1, 0});
+    }
+  }
+  const struct {
+    const char* name;
+    const Bytes& bytes;
+    off_t count_at;  // of the last strand
+  } files[] = {{"/hair", hair, 128 + 2 * (strands - 1)}, {"/data", data, static_cast<off_t>(data.size()) - 28},
+               {"/flk", cookedOf(hair), 320 + 4 * (strands - 1)}};
+  for (const auto& file : files) {
+    const std::string path = folder.path + file.name;
+    writeRaw(path, file.bytes.bytes);
+    std::atomic<bool> done = false;
+    std::thread writer([&] {
+      const int fd = open(path.c_str(), O_WRONLY);
+      for (unsigned char value = 0; !done; value = static_cast<unsigned char>(value + 1)) EXPECT_EQ(pwrite(fd, &value, 1, file.count_at), 1);
+      close(fd);
+    });
+    for (int i = 0; i < 200; ++i) {
+      const auto loaded = loadPath(path);
+      if (loaded->result == FLK_SUCCESS) continue;
+      EXPECT_TRUE(loaded->result == FLK_ERROR_MALFORMED || loaded->result == FLK_ERROR_IO) << loaded->caught.text();
+    }
+    done = true;
+    writer.join();
   }
 }
 

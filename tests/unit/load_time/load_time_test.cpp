@@ -161,16 +161,16 @@ TEST(LoadTime, AMillionStrands) {
   }
   const uint64_t cooked_process = peakOfProcess(cooked), hair_host = peakOfAllocator(hair), cooked_host = peakOfAllocator(cooked);
   const uint64_t hair_bytes = bytesOf(hair), cooked_bytes = bytesOf(cooked);
-  const Times hair_times = timeLoads(hair, 7), cooked_times = timeLoads(cooked, 15);
+  const Times hair_times = timeLoads(hair, 9), cooked_times = timeLoads(cooked, 25);
 
   const auto megabytes = [](uint64_t bytes) { return static_cast<double>(bytes) / 1e6; };
   // The file's own pages are resident too while it is mapped, and are not counted.
   const double hair_ratio = static_cast<double>(hair_process - std::min(hair_process, hair_bytes)) / static_cast<double>(hair_bytes);
-  std::printf("1,000,000 x 16 .hair (%.1f MB): load and check %.1f ms best, %.1f ms median; above the mapped file %.1f MB by the allocator, "
+  std::printf("ROW 1,000,000 x 16 .hair (%.1f MB): load and check %.1f ms best, %.1f ms median; above the mapped file %.1f MB by the allocator, "
               "%.1f MB by the process: %.2f of its bytes\n",
               megabytes(hair_bytes), hair_times.best_s * 1e3, hair_times.median_s * 1e3, megabytes(hair_host), megabytes(hair_process - hair_bytes),
               hair_ratio);
-  std::printf("its cooked file (%.1f MB): %.1f ms best, %.1f ms median; %.1f MB by the allocator, %.1f MB by the process with the file\n",
+  std::printf("ROW its cooked file (%.1f MB): %.1f ms best, %.1f ms median; %.1f MB by the allocator, %.1f MB by the process with the file\n",
               megabytes(cooked_bytes), cooked_times.best_s * 1e3, cooked_times.median_s * 1e3, megabytes(cooked_host), megabytes(cooked_process));
 
   ASSERT_GT(hair_process, hair_bytes) << "the file is mapped, so its pages count";
@@ -188,7 +188,7 @@ TEST(LoadTime, Fur) {
   const std::string path = std::string(FORELOCK_HAIRDATA) + "/fur.hair";
   if (bytesOf(path) == 0) GTEST_SKIP() << path << " is not here: strand files of others are optional";
   const Times times = timeLoads(path, 25);
-  std::printf("fur.hair (50,000 strands): load and check %.2f ms best, %.2f ms median\n", times.best_s * 1e3, times.median_s * 1e3);
+  std::printf("ROW fur.hair (50,000 strands): load and check %.2f ms best, %.2f ms median\n", times.best_s * 1e3, times.median_s * 1e3);
   if (optimised) {
     EXPECT_LT(times.best_s, 0.05);
   }

@@ -167,6 +167,7 @@ const char* formatName(uint32_t format) {
     case FLK_FORMAT_TFX_TEXT: return "tfx text";
     case FLK_FORMAT_STRAND_DATA: return "strand data";
     case FLK_FORMAT_PLY: return "ply";
+    case FLK_FORMAT_COOKED: return "cooked";
     default: return "arrays";
   }
 }
@@ -194,13 +195,13 @@ OpenedAsset openAsset(const std::string& source, const ProgressFunction& progres
 
 uint32_t formatOfPath(const std::string& path) {
   const std::string extension = lowerExtension(path);
-  return extension == ".tfx" ? FLK_FORMAT_TFX : extension == ".hair" ? FLK_FORMAT_HAIR : extension == ".ply" ? FLK_FORMAT_PLY : FLK_FORMAT_UNKNOWN;
+  return extension == ".tfx" ? FLK_FORMAT_TFX : extension == ".hair" ? FLK_FORMAT_HAIR : extension == ".ply" ? FLK_FORMAT_PLY : extension == ".flk" ? FLK_FORMAT_COOKED : FLK_FORMAT_UNKNOWN;
 }
 
 std::vector<AssetMessage> saveAsset(const OpenedAsset& opened, const std::string& path) {
   const uint32_t format = formatOfPath(path);
   if (format == FLK_FORMAT_UNKNOWN) {
-    throw AssetError(FLK_ERROR_FORMAT_UNKNOWN, path + ": no writer for this extension, use .tfx, .hair or .ply");
+    throw AssetError(FLK_ERROR_FORMAT_UNKNOWN, path + ": no writer for this extension, use .tfx, .hair, .ply or .flk");
   }
   const size_t before = opened.messages->size();
   const FlkResult result = flkAssetSaveFile(opened.asset.get(), format, path.c_str());

@@ -21,6 +21,7 @@ constexpr const char* kExamples =
     "  forelock convert pony.tfx pony.hair\n"
     "  forelock convert pony.tfx pony.ply               keeps everything; any viewer of PLY files shows its lines\n"
     "  forelock convert groom:long-wavy hair.tfx\n"
+    "  forelock convert pony.hair pony.flk              a cache that loads many times faster; cook it again after an update\n"
     "  forelock convert cm.hair game.tfx --scale 0.01 --axes x,z,-y --resample 16\n"
     "  forelock convert guides.tfx full.ply --interpolate 30000 --width 0.08 --width-profile 0:1,0.7:0.9,1:0.1\n"
     "  forelock convert full.ply far.ply --keep 12.5%   an eighth of the strands, eight times as wide\n"
@@ -43,7 +44,7 @@ std::vector<AssetMessage> rehearse(const OpenedAsset& opened, uint32_t format) {
 int runConvert(const ConvertArguments& arguments) {
   const uint32_t format = formatOfPath(arguments.out);
   if (format == FLK_FORMAT_UNKNOWN) {
-    throw UsageError(arguments.out + ": no writer for this extension, use .tfx, .hair or .ply");
+    throw UsageError(arguments.out + ": no writer for this extension, use .tfx, .hair, .ply or .flk");
   }
   OpenedAsset opened;
   {
@@ -81,7 +82,7 @@ void addConvertCommand(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("convert", "Write an asset in another strand format.");
   auto arguments = std::make_shared<ConvertArguments>();
   command->add_option("IN", arguments->in, "A strand file, a recipe or groom:NAME")->required();
-  command->add_option("OUT", arguments->out, "The file to write: .hair, .ply or .tfx")->required();
+  command->add_option("OUT", arguments->out, "The file to write: .hair, .ply, .tfx or .flk")->required();
   command->add_flag("--strict", arguments->strict, "Fail instead of leaving out what the target cannot hold");
   addConvertEdits(*command, *arguments);
   command->footer(kExamples);

@@ -26,7 +26,8 @@ constexpr const char* kExamples =
 
 void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::vector<AssetFinding>& findings) {
   std::printf("%s\n", opened.label.c_str());
-  std::printf("  format      %s\n", opened.format.c_str());
+  const bool cooked = info.format == FLK_FORMAT_COOKED;
+  std::printf("  format      %s%s%s\n", opened.format.c_str(), cooked ? ", from " : "", cooked ? formatName(info.source_format) : "");
   std::printf("  strands     %s", groupedDigits(info.strand_count).c_str());
   if (info.strands_in_source != info.strand_count) {
     std::printf(" of %s (the rest cannot be drawn)", groupedDigits(info.strands_in_source).c_str());
@@ -45,7 +46,7 @@ void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
   std::printf("  attributes  positions%s%s%s%s\n", info.has_radii ? ", widths" : "",
               info.has_root_uvs ? ", root UV" : "", info.has_inverse_masses ? ", inverse masses" : "",
               info.has_colors ? ", colours" : "");
-  std::printf("  memory      %s\n", readableBytes(info.bytes_host).c_str());
+  std::printf("  memory      %s\n", readableBytes(info.bytes_host + info.bytes_mapped).c_str());
   if (findings.empty()) {
     std::printf("  findings    none\n");
   }
@@ -70,6 +71,7 @@ void printJson(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
   nlohmann::ordered_json json;
   json["asset"] = opened.label;
   json["format"] = opened.format;
+  if (info.format == FLK_FORMAT_COOKED) json["source_format"] = formatName(info.source_format);
   json["strands"] = info.strand_count;
   json["strands_in_source"] = info.strands_in_source;
   json["vertices"] = info.vertex_count;
@@ -84,6 +86,7 @@ void printJson(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
                         {"inverse_masses", info.has_inverse_masses != 0},
                         {"colors", info.has_colors != 0}};
   json["bytes_host"] = info.bytes_host;
+  json["bytes_mapped"] = info.bytes_mapped;
   json["findings"] = nlohmann::ordered_json::array();
   for (const AssetFinding& finding : findings) {
     nlohmann::ordered_json entry;

@@ -85,7 +85,7 @@ inline const char* brokenRoundTrip(FlkAsset asset) {
   flkAssetGetStrands(asset, &before);
   FlkAssetInfo info;
   flkAssetGetInfo(asset, &info);
-  for (const uint32_t format : {uint32_t{FLK_FORMAT_TFX}, uint32_t{FLK_FORMAT_HAIR}, uint32_t{FLK_FORMAT_PLY}}) {
+  for (const uint32_t format : {uint32_t{FLK_FORMAT_TFX}, uint32_t{FLK_FORMAT_HAIR}, uint32_t{FLK_FORMAT_PLY}, uint32_t{FLK_FORMAT_COOKED}}) {
     FlkResult result;
     const std::vector<unsigned char> bytes = saved(asset, format, result);
     if (result == FLK_ERROR_LIMIT) continue;
@@ -113,6 +113,8 @@ inline const char* brokenRoundTrip(FlkAsset asset) {
     else if (format != FLK_FORMAT_TFX &&
              (before.colors ? !after.colors || std::memcmp(after.colors, before.colors, vertices * 12) != 0 : after.colors != nullptr))
       broken = "a .hair or PLY round trip keeps the colours";
+    else if (format == FLK_FORMAT_COOKED && std::memcmp(after.radii, before.radii, vertices * 4) != 0)
+      broken = "a cooked round trip keeps default widths";
     else if (saved(again, format, result) != bytes)
       broken = "equal assets give equal bytes";
     flkAssetDestroy(again);

@@ -1,4 +1,4 @@
-// fuzz_seeds tfx|hair|text|data|ply FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by
+// fuzz_seeds tfx|hair|text|data|ply|cooked FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by
 // hand; what the SDK does not write, by hand altogether.
 #include "asset_invariants.h"
 #include "text_files.h"
@@ -85,6 +85,20 @@ int main(int argc, char** argv) {
     const std::vector<unsigned char> bytes = asset_test::saved(asset, FLK_FORMAT_PLY, result);
     flkAssetDestroy(asset);
     return result == FLK_SUCCESS && put(folder / "ascii", bytesOf(asset_test::smallPlyText())) && put(folder / "written", bytes) ? 0 : 1;
+  }
+  if (kind == "cooked") {
+    // One with every array, one with findings.
+    std::vector<unsigned char> defective = bytesOf(asset_test::smallPlyText() + "0 0 0");
+    FlkAsset assets[2] = {makeAsset(false), nullptr};
+    flkAssetLoadMemory(defective.data(), defective.size(), nullptr, &assets[1]);
+    bool all = true;
+    for (FlkAsset asset : assets) {
+      FlkResult result = FLK_ERROR_IO;
+      const std::vector<unsigned char> bytes = asset ? asset_test::saved(asset, FLK_FORMAT_COOKED, result) : std::vector<unsigned char>();
+      all = all && result == FLK_SUCCESS && put(folder / (asset == assets[0] ? "all-arrays" : "findings"), bytes);
+      flkAssetDestroy(asset);
+    }
+    return all ? 0 : 1;
   }
   bool written = !tfx || (put(folder / "version-3", tfx3(false)) && put(folder / "version-3-all-arrays", tfx3(true)));
   for (const bool equal : {true, false}) {

@@ -42,7 +42,13 @@ typedef struct FlkAssetOptions {
   const char* name;                  /* optional: what messages call the asset; flkAssetLoadFile: the path */
   uint32_t max_strands;              /* optional: 0 is the limit of FlkStrands */
   uint32_t max_vertices;             /* optional: 0 is the limit of FlkStrands */
+  uint32_t flags;                    /* optional: FLK_ASSET_... */
 } FlkAssetOptions;
+
+enum {
+  FLK_ASSET_COPY_FILE = 1  /* flkAssetLoadFile: read the file into memory of the allocator instead of mapping it, for files that
+                              another process may cut short or write into; an asset of a cooked file then keeps a copy */
+};
 
 /* Something worth knowing about an asset. */
 typedef struct FlkFinding {
@@ -64,7 +70,9 @@ enum {
   FLK_FORMAT_HAIR = 2,  /* Cem Yuksel's .hair: thickness (read and written as the diameter), colour; no UV, no mass */
   FLK_FORMAT_TFX_TEXT = 3,    /* TressFX 1 and 2, text, only read: root UV, inverse mass as TressFX implies it */
   FLK_FORMAT_STRAND_DATA = 4, /* USC-HairSalon (.data) and CT2Hair (.bin), only read: positions */
-  FLK_FORMAT_PLY = 5    /* PLY with an element strand, read and written: everything that an asset holds */
+  FLK_FORMAT_PLY = 5,   /* PLY with an element strand, read and written: everything that an asset holds */
+  FLK_FORMAT_COOKED = 6 /* Forelock's own cache (.flk): everything that an asset holds and knows, findings included, as it lies in
+                           memory. Read by the version that wrote it; cook it again from the source after an update */
 };
 
 typedef struct FlkAssetInfo {
@@ -82,7 +90,9 @@ typedef struct FlkAssetInfo {
   float min_bounds[3], max_bounds[3];/* of the vertices (unit of the positions) */
   float min_length, mean_length, max_length; /* of strands (unit of the positions) */
   float min_radius, max_radius;
-  uint64_t bytes_host;               /* held by this asset */
+  uint64_t bytes_host;               /* held by this asset, from the allocator */
+  uint64_t bytes_mapped;             /* of a cooked file whose mapping this asset holds beside them; 0: none */
+  uint32_t source_format;            /* of a cooked file: the format that was cooked; otherwise `format` */
 } FlkAssetInfo;
 
 /* Makes an asset from arrays, which are copied. Strands that no asset may hold are dropped with a finding.
@@ -96,7 +106,11 @@ FLK_API FlkResult flkAssetCreate(const FlkStrands* strands, const FlkAssetOption
  * the file, the field and the byte. `options` may be NULL. On failure *asset is NULL. Any thread. */
 FLK_API FlkResult flkAssetLoadMemory(const void* bytes, size_t size, const FlkAssetOptions* options, FlkAsset* asset);
 
-/* Like flkAssetLoadMemory, for a file (path in UTF-8). FLK_ERROR_IO: cannot be read, or is not a regular file. */
+/* Like flkAssetLoadMemory, for a file (path in UTF-8). The file is mapped while it is read, which is the one thing that does not
+ * come from the allocator; the mapping of a cooked file stays, because the asset's arrays are views of it. A mapped file may be
+ * replaced (flkAssetSaveFile does it safely), but must not be written into or cut short, which ends the program with SIGBUS:
+ * FLK_ASSET_COPY_FILE is for files that may be. Cost of a cooked file: one pass over it at the speed of memory, no copy.
+ * FLK_ERROR_IO: cannot be read, or is not a regular file. */
 FLK_API FlkResult flkAssetLoadFile(const char* path, const FlkAssetOptions* options, FlkAsset* asset);
 
 /* Size in bytes and content of the asset written as `format`. With bytes == NULL only *size is set; otherwise *size is

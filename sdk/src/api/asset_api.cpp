@@ -1,8 +1,6 @@
 #include "forelock/asset.h"
 
 #include "api/boundary.h"
-#include "asset/codec.h"
-#include "asset/file_io.h"
 #include "asset/loaded_asset.h"
 #include "asset/sniff.h"
 
@@ -24,16 +22,19 @@ uint32_t limitOr(uint32_t asked, uint32_t largest) { return asked == 0 ? largest
 template <class Body>
 FlkResult makeWith(const FlkAssetOptions* options, const char* default_name, FlkAsset* asset, Body&& body) noexcept {
   if (asset) *asset = nullptr;
-  const FlkAssetOptions none{FLK_TYPE_ASSET_OPTIONS, nullptr, nullptr, nullptr, nullptr, nullptr, 0, 0};
+  const FlkAssetOptions none{FLK_TYPE_ASSET_OPTIONS, nullptr, nullptr, nullptr, nullptr, nullptr, 0, 0, 0};
   if (!options) options = &none;
   // Of a struct that is not what it should be nothing is used, its callback least of all.
   if (options->type != FLK_TYPE_ASSET_OPTIONS) return FLK_ERROR_INVALID_ARGUMENT;
 
   const char* name = options->name ? options->name : default_name ? default_name : "asset";
   AssetSettings settings{HostMemory(nullptr), Messages(options->message, options->message_user), name,
-                         {limitOr(options->max_strands, limit_strands), limitOr(options->max_vertices, limit_vertices)}};
+                         {limitOr(options->max_strands, limit_strands), limitOr(options->max_vertices, limit_vertices)},
+                         (options->flags & FLK_ASSET_COPY_FILE) != 0};
   const Report report(settings.messages, settings.name);
   if (options->next) return invalid(report, "FlkAssetOptions.next is reserved and has to be NULL");
+  if (options->flags & ~uint32_t{FLK_ASSET_COPY_FILE})
+    return invalid(report, "FlkAssetOptions.flags has bits that are no FLK_ASSET_... flag: set it to 0");
   if (!HostMemory::valid(options->allocator))
     return invalid(report, "FlkHostAllocator has one function of two: give allocate and free, or neither");
   if (!asset) return invalid(report, "the place for the new asset is NULL");
@@ -50,18 +51,6 @@ FlkResult makeWith(const FlkAssetOptions* options, const char* default_name, Flk
 FlkResult acceptHead(std::span<const std::byte> head, const Report& report) {
   uint32_t format = FLK_FORMAT_UNKNOWN;
   return sniffFormat(head, report, format);
-}
-
-// The codec for a save and the bytes that it needs.
-FlkResult prepareSave(const FlkAsset_T& asset, uint32_t format, const Report& report, const Codec*& codec, uint64_t& bytes) {
-  codec = findCodec(format);
-  if (!codec || !codec->write)
-    return report.fail(FLK_ERROR_INVALID_ARGUMENT, "WRITE_FORMAT_UNKNOWN",
-                       "format %" PRIu32 " cannot be written: choose FLK_FORMAT_TFX, FLK_FORMAT_HAIR or FLK_FORMAT_PLY", format);
-  const FlkResult result = codec->measure(asset.view(), asset.info, report, bytes);
-  if (result == FLK_SUCCESS && bytes > SIZE_MAX)
-    return report.fail(FLK_ERROR_LIMIT, "WRITE_TOO_LARGE", "its %" PRIu64 " bytes do not fit into memory", bytes);
-  return result;
 }
 
 }  // namespace
@@ -84,7 +73,7 @@ FlkResult flkAssetCreate(const FlkStrands* strands, const FlkAssetOptions* optio
 FlkResult flkAssetLoadMemory(const void* bytes, size_t size, const FlkAssetOptions* options, FlkAsset* asset) {
   return makeWith(options, nullptr, asset, [&](const AssetSettings& settings, const Report& report, AssetPointer& made) {
     if (!bytes && size != 0) return invalid(report, "bytes is NULL, but size is not 0");
-    return readAsset(std::span(static_cast<const std::byte*>(bytes), size), settings, made);
+    return readAsset(std::span(static_cast<const std::byte*>(bytes), size), nullptr, settings, made);
   });
 }
 
@@ -92,9 +81,9 @@ FlkResult flkAssetLoadFile(const char* path, const FlkAssetOptions* options, Flk
   return makeWith(options, path, asset, [&](const AssetSettings& settings, const Report& report, AssetPointer& made) {
     if (!path) return invalid(report, "path is NULL");
     HostMemory memory = settings.memory;
-    std::pmr::vector<std::byte> bytes(&memory);
-    const FlkResult result = readFile(path, settings.limits.largestFile(), report, acceptHead, bytes);
-    return result == FLK_SUCCESS ? readAsset(bytes, settings, made) : result;
+    FileBytes file(&memory);
+    const FlkResult result = readFile(path, settings.limits.largestFile(), settings.copy_file, report, acceptHead, file);
+    return result == FLK_SUCCESS ? readAsset(file.bytes(), &file.mapping, settings, made) : result;
   });
 }
 
@@ -102,9 +91,8 @@ FlkResult flkAssetSaveMemory(FlkAsset asset, uint32_t format, void* bytes, size_
   if (!asset) return FLK_ERROR_INVALID_ARGUMENT;
   const Report report = asset->report();
   if (!size) return invalid(report, "size is NULL");
-  const Codec* codec = nullptr;
   uint64_t needed = 0;
-  const FlkResult result = prepareSave(*asset, format, report, codec, needed);
+  const FlkResult result = measureAsset(*asset, format, report, needed);
   if (result != FLK_SUCCESS) return result;
   if (bytes && *size < needed)
     return report.fail(FLK_ERROR_INVALID_ARGUMENT, "WRITE_CAPACITY_TOO_SMALL",
@@ -112,7 +100,7 @@ FlkResult flkAssetSaveMemory(FlkAsset asset, uint32_t format, void* bytes, size_
   *size = static_cast<size_t>(needed);
   if (!bytes) return FLK_SUCCESS;
   ByteSink sink(std::span(static_cast<std::byte*>(bytes), *size));
-  codec->write(asset->view(), asset->info, report, sink);
+  writeAsset(*asset, format, report, sink);
   assert(sink.complete());
   return FLK_SUCCESS;
 }
@@ -121,16 +109,15 @@ FlkResult flkAssetSaveFile(FlkAsset asset, uint32_t format, const char* path) {
   if (!asset) return FLK_ERROR_INVALID_ARGUMENT;
   const Report report = asset->report();
   if (!path) return invalid(report, "path is NULL");
-  const Codec* codec = nullptr;
   uint64_t needed = 0;
-  FlkResult result = prepareSave(*asset, format, report, codec, needed);
+  FlkResult result = measureAsset(*asset, format, report, needed);
   if (result != FLK_SUCCESS) return result;
   result = guarded([&] {
     // Its own resource: an asset may be saved by several threads at once.
     HostMemory memory = asset->memory;
-    std::pmr::vector<std::byte> bytes(static_cast<size_t>(needed), &memory);
+    std::vector<std::byte, UnfilledAllocator<std::byte>> bytes(static_cast<size_t>(needed), &memory);
     ByteSink sink{bytes};
-    codec->write(asset->view(), asset->info, report, sink);
+    writeAsset(*asset, format, report, sink);
     assert(sink.complete());
     return writeFile(path, bytes, report, &memory);
   });

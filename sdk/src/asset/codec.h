@@ -13,6 +13,12 @@ inline float impliedInverseMass(uint64_t from_root, uint64_t vertices, bool both
   return from_root < 2 || (both_ends && from_root + 2 >= vertices) ? 0.0f : 1.0f;
 }
 
+// Bytes of a mapped file may change while they are read: a count that was proven against them is read once, or compared again with
+// what was proven.
+inline FlkResult fileChanged(const Report& report) {
+  return report.fail(FLK_ERROR_IO, "FILE_CHANGED", "it was written into while it was read: try again when that is done");
+}
+
 struct Codec {
   uint32_t format;
 

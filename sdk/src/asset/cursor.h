@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string_view>
 
 namespace forelock {
 
@@ -37,6 +38,7 @@ public:
   uint8_t u8() noexcept { return load<uint8_t>(); }
   uint16_t u16() noexcept { return load<uint16_t>(); }
   uint32_t u32() noexcept { return load<uint32_t>(); }
+  uint64_t u64() noexcept { return load<uint64_t>(); }
   float f32() noexcept { return std::bit_cast<float>(load<uint32_t>()); }
 
   void skip(uint64_t bytes) noexcept {
@@ -44,20 +46,23 @@ public:
     else at_ += bytes;
   }
 
-  void floats(std::span<float> out) noexcept {
+  void floats(std::span<float> out) noexcept { words(out); }
+  void u32s(std::span<uint32_t> out) noexcept { words(out); }
+
+private:
+  template <class Word> void words(std::span<Word> out) noexcept {
+    static_assert(sizeof(Word) == sizeof(uint32_t));
     if (out.empty()) return;
-    if (!holds(out.size(), sizeof(float))) {
+    if (!holds(out.size(), sizeof(Word))) {
       std::memset(out.data(), 0, out.size_bytes());
       fail();
     } else if constexpr (std::endian::native == std::endian::little) {
       std::memcpy(out.data(), bytes_.data() + at_, out.size_bytes());
       at_ += out.size_bytes();
     } else {
-      for (float& value : out) value = f32();
+      for (Word& value : out) value = std::bit_cast<Word>(load<uint32_t>());
     }
   }
-
-private:
   template <std::unsigned_integral U> U load() noexcept {
     if (left() < sizeof(U)) {
       fail();
@@ -92,7 +97,30 @@ public:
 
   void u16(uint16_t value) noexcept { store(value); }
   void u32(uint32_t value) noexcept { store(value); }
+  void u64(uint64_t value) noexcept { store(value); }
   void f32(float value) noexcept { store(std::bit_cast<uint32_t>(value)); }
+  template <class Word> void words(std::span<const Word> values) noexcept {
+    static_assert(sizeof(Word) == sizeof(uint32_t));
+    if constexpr (std::endian::native == std::endian::little) {
+      if (bytes_.size() - at_ < values.size_bytes()) {
+        failed_ = true;
+      } else if (!values.empty()) {
+        std::memcpy(bytes_.data() + at_, values.data(), values.size_bytes());
+        at_ += values.size_bytes();
+      }
+    } else {
+      for (const Word value : values) store(std::bit_cast<uint32_t>(value));
+    }
+  }
+  void zeros(uint64_t count) noexcept {
+    for (; count > 0; --count) store(uint8_t{0});
+  }
+  void text(std::string_view text) noexcept {
+    for (const char c : text) store(static_cast<uint8_t>(c));
+  }
+  std::size_t at() const noexcept { return at_; }
+  // What has been written so far; for a checksum, and to set a field that depends on what follows it.
+  std::span<std::byte> written() noexcept { return bytes_.first(at_); }
   // `text` cut or filled with zeros to `length` bytes.
   void text(const char* text, std::size_t length) noexcept {
     const std::size_t used = std::strlen(text);

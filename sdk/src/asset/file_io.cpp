@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <string>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -83,8 +84,20 @@ int createBeside(const char* path, std::pmr::string& name) {
 
 }  // namespace
 
-FlkResult readFile(const char* path, uint64_t largest, const Report& report, AcceptHead accept,
-                   std::pmr::vector<std::byte>& bytes) {
+Mapping::~Mapping() {
+  if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+}
+
+bool Mapping::map(int fd, uint64_t size) noexcept {
+  if (size == 0 || size > SIZE_MAX) return false;
+  void* memory = ::mmap(nullptr, static_cast<std::size_t>(size), PROT_READ, MAP_PRIVATE, fd, 0);
+  if (memory == MAP_FAILED) return false;
+  *this = Mapping();
+  bytes_ = {static_cast<const std::byte*>(memory), static_cast<std::size_t>(size)};
+  return true;
+}
+
+FlkResult readFile(const char* path, uint64_t largest, bool must_copy, const Report& report, AcceptHead accept, FileBytes& file_bytes) {
   // Not blocking: opening a pipe that nobody writes to would wait for ever before it could be refused.
   Descriptor file(::open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file) return report.fail(FLK_ERROR_IO, "FILE_NOT_OPENED", "cannot be opened: %s", Reason(errno).text);
@@ -109,6 +122,8 @@ FlkResult readFile(const char* path, uint64_t largest, const Report& report, Acc
                        " that strands and vertices within the limits can fill: split it or raise the limits",
                        size, largest);
 
+  if (!must_copy && static_cast<std::size_t>(got) == head_size && file_bytes.mapping.map(file.get(), size)) return FLK_SUCCESS;
+  std::pmr::vector<std::byte>& bytes = file_bytes.copy;
   bytes.resize(size);
   if (head_size != 0) std::memcpy(bytes.data(), head, head_size);
   const ssize_t rest = readUpTo(file.get(), std::span(bytes).subspan(head_size));

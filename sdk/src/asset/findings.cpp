@@ -124,25 +124,36 @@ void Findings::finish() {
     std::memcpy(finding.strands, slot.strands, sizeof finding.strands);
     finding.strands_listed = slot.strands_listed;
     finding.byte_offset = slot.byte;
-    list_.push_back({finding, std::pmr::string(text, list_.get_allocator().resource())});
+    std::pmr::memory_resource* memory = list_.get_allocator().resource();
+    list_.push_back({finding, std::pmr::string(text, memory), std::pmr::string(memory)});
   }
+}
+
+void Findings::restore(const FlkFinding& finding, std::string_view code, std::string_view text) {
+  std::pmr::memory_resource* memory = list_.get_allocator().resource();
+  list_.push_back({finding, std::pmr::string(text, memory), std::pmr::string(memory)});
+  list_.back().finding.code = nullptr;
+  for (const Meaning& meaning : meanings)
+    if (meaning.code == code) list_.back().finding.code = meaning.code;
+  if (!list_.back().finding.code) list_.back().code.assign(code);  // of a later version
 }
 
 void Findings::tell(const Report& report) const noexcept {
   for (const Entry& entry : list_)
     if (entry.finding.severity >= FLK_SEVERITY_WARNING)
-      report.say(entry.finding.severity, entry.finding.code, "%s", entry.text.c_str());
+      report.say(entry.finding.severity, entry.finding.code ? entry.finding.code : entry.code.c_str(), "%s", entry.text.c_str());
 }
 
 FlkFinding Findings::get(uint32_t index) const noexcept {
   FlkFinding finding = list_[index].finding;
   finding.text = list_[index].text.c_str();
+  if (!finding.code) finding.code = list_[index].code.c_str();
   return finding;
 }
 
 uint64_t Findings::bytes() const noexcept {
   uint64_t bytes = list_.capacity() * sizeof(Entry);
-  for (const Entry& entry : list_) bytes += entry.text.capacity() + 1;
+  for (const Entry& entry : list_) bytes += entry.text.capacity() + 1 + (entry.finding.code ? 0 : entry.code.capacity() + 1);
   return bytes;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace forelock {
@@ -68,6 +69,11 @@ public:
   void finish();
   void tell(const Report& report) const noexcept;
 
+  // Adds to the list what another asset's list said (its code and text are given apart). After a reserve() of as many it moves nothing.
+  // Throws std::bad_alloc.
+  void reserve(uint32_t entries) { list_.reserve(entries); }
+  void restore(const FlkFinding& finding, std::string_view code, std::string_view text);
+
   uint32_t size() const noexcept { return static_cast<uint32_t>(list_.size()); }
   FlkFinding get(uint32_t index) const noexcept;
   uint64_t bytes() const noexcept;
@@ -84,8 +90,9 @@ private:
     char text[320] = {};
   };
   struct Entry {
-    FlkFinding finding;  // without its text, which may move while the list is made
+    FlkFinding finding;     // without its text, which may move while the list is made
     std::pmr::string text;
+    std::pmr::string code;  // empty: the finding points at the table's
   };
 
   std::array<Slot, static_cast<std::size_t>(FindingKind::kinds)> slots_;

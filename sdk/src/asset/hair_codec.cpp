@@ -119,6 +119,7 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
     vertex += static_cast<uint32_t>(table[segments].present ? counts.u16() : default_segments) + 1;
   }
   arrays.first_vertex[strands] = vertex;
+  if (vertex != used_points) return fileChanged(report);
 
   arrays.positions.resize(used_points * 3);
   Cursor(bytes, table[points].offset).floats(arrays.positions);

@@ -1,6 +1,7 @@
 #include "asset/loaded_asset.h"
 
 #include "asset/codec.h"
+#include "asset/cooked_format.h"
 #include "asset/sanitise.h"
 #include "asset/sniff.h"
 
@@ -14,20 +15,32 @@ AssetPointer newAsset(const AssetSettings& settings) {
   return AssetPointer(memory.create<FlkAsset_T>(settings.memory, settings.messages, settings.name));
 }
 
-// The last steps, the same for every source.
+const float* dataOf(const FloatArray& array) noexcept { return array.empty() ? nullptr : array.data(); }
+
+// The view, and what is said of the asset as a whole.
+void settleAsset(FlkAsset_T& asset) noexcept {
+  const StrandArrays& arrays = asset.arrays;
+  if (asset.file.bytes().empty())
+    asset.strands = {FLK_TYPE_STRANDS, nullptr, arrays.strandCount(), arrays.vertexCount(), nullptr, dataOf(arrays.positions),
+                     dataOf(arrays.radii), dataOf(arrays.root_uvs), dataOf(arrays.inverse_masses), dataOf(arrays.colors)};
+  asset.strands.first_vertex = arrays.first_vertex.data();
+  const auto bytes = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  asset.info.finding_count = asset.findings.size();
+  asset.info.bytes_mapped = asset.file.bytes().size();
+  asset.info.bytes_host = sizeof(FlkAsset_T) + asset.name.capacity() + bytes(arrays.first_vertex) + bytes(arrays.positions) +
+                          bytes(arrays.radii) + bytes(arrays.root_uvs) + bytes(arrays.inverse_masses) + bytes(arrays.colors) +
+                          asset.findings.bytes();
+}
+
+// The last steps, the same for every source but a cooked one.
 FlkResult finish(FlkAsset_T& asset, const Places& places, uint32_t format) {
   const Report report = asset.report();
   const FlkResult result = sanitise(asset.arrays, places, &asset.memory, asset.findings, report, asset.info);
   if (result != FLK_SUCCESS) return result;
   asset.findings.finish();
 
-  asset.info.format = format;
-  asset.info.finding_count = asset.findings.size();
-  const auto bytes = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  const StrandArrays& arrays = asset.arrays;
-  asset.info.bytes_host = sizeof(FlkAsset_T) + asset.name.capacity() + bytes(arrays.first_vertex) + bytes(arrays.positions) +
-                          bytes(arrays.radii) + bytes(arrays.root_uvs) + bytes(arrays.inverse_masses) + bytes(arrays.colors) +
-                          asset.findings.bytes();
+  asset.info.format = asset.info.source_format = format;
+  settleAsset(asset);
   asset.findings.tell(report);
   return FLK_SUCCESS;
 }
@@ -72,31 +85,44 @@ FlkResult makeAsset(const FlkStrands& strands, const AssetSettings& settings, As
   return result;
 }
 
-FlkResult readAsset(std::span<const std::byte> bytes, const AssetSettings& settings, AssetPointer& asset) {
+FlkResult readAsset(std::span<const std::byte> bytes, Mapping* mapping, const AssetSettings& settings, AssetPointer& asset) {
   const Report report(settings.messages, settings.name);
   uint32_t format = FLK_FORMAT_UNKNOWN;
   FlkResult result = sniffFormat(bytes, report, format);
   if (result != FLK_SUCCESS) return result;
   AssetPointer made = newAsset(settings);
-  Places places;
-  result = findCodec(format)->read(bytes, settings.limits, report, made->arrays, places, made->findings);
-  if (result == FLK_SUCCESS) result = finish(*made, places, format);
+  if (format == FLK_FORMAT_COOKED) {
+    result = readCooked(bytes, mapping, settings.limits, report, *made);
+    if (result == FLK_SUCCESS) settleAsset(*made), made->findings.tell(report);
+  } else {
+    Places places;
+    result = findCodec(format)->read(bytes, settings.limits, report, made->arrays, places, made->findings);
+    if (result == FLK_SUCCESS) result = finish(*made, places, format);
+  }
   if (result == FLK_SUCCESS) asset = std::move(made);
   return result;
 }
 
-}  // namespace forelock
-
-FlkStrands FlkAsset_T::view() const noexcept {
-  FlkStrands strands{};
-  strands.type = FLK_TYPE_STRANDS;
-  strands.strand_count = arrays.strandCount();
-  strands.vertex_count = arrays.vertexCount();
-  strands.first_vertex = arrays.first_vertex.data();
-  strands.positions = arrays.positions.data();
-  strands.radii = arrays.radii.data();
-  strands.root_uvs = arrays.root_uvs.empty() ? nullptr : arrays.root_uvs.data();
-  strands.inverse_masses = arrays.inverse_masses.empty() ? nullptr : arrays.inverse_masses.data();
-  strands.colors = arrays.colors.empty() ? nullptr : arrays.colors.data();
-  return strands;
+FlkResult measureAsset(const FlkAsset_T& asset, uint32_t format, const Report& report, uint64_t& bytes) {
+  FlkResult result = FLK_SUCCESS;
+  const Codec* codec = findCodec(format);
+  if (format == FLK_FORMAT_COOKED)
+    bytes = measureCooked(asset);
+  else if (codec && codec->write)
+    result = codec->measure(asset.view(), asset.info, report, bytes);
+  else
+    return report.fail(FLK_ERROR_INVALID_ARGUMENT, "WRITE_FORMAT_UNKNOWN",
+                       "format %" PRIu32 " cannot be written: choose FLK_FORMAT_TFX, FLK_FORMAT_HAIR, FLK_FORMAT_PLY or FLK_FORMAT_COOKED", format);
+  if (result == FLK_SUCCESS && bytes > SIZE_MAX)
+    return report.fail(FLK_ERROR_LIMIT, "WRITE_TOO_LARGE", "its %" PRIu64 " bytes do not fit into memory", bytes);
+  return result;
 }
+
+void writeAsset(const FlkAsset_T& asset, uint32_t format, const Report& report, ByteSink& sink) {
+  if (format == FLK_FORMAT_COOKED)
+    writeCooked(asset, sink);
+  else
+    findCodec(format)->write(asset.view(), asset.info, report, sink);
+}
+
+}  // namespace forelock

@@ -1,5 +1,7 @@
 #include "asset/sanitise.h"
 
+#include "asset/value_range.h"
+
 #include <algorithm>
 #include <cinttypes>
 #include <cmath>
@@ -12,8 +14,8 @@ namespace {
 constexpr float dropped = -1.0f;  // in place of a strand's length
 constexpr double micro_fraction = 1e-4;
 
-// Length of a strand, or `dropped` after noting why.
-float measureStrand(const StrandArrays& arrays, uint32_t strand, const Places& places, Findings& findings) {
+// Length of a strand, or `dropped` after noting why. `in_range`: all its coordinates are known to be.
+float measureStrand(const StrandArrays& arrays, uint32_t strand, bool in_range, const Places& places, Findings& findings) {
   const uint32_t begin = arrays.first_vertex[strand], end = arrays.first_vertex[strand + 1];
   const auto drop = [&](FindingKind kind, uint32_t vertex) {
     findings.note(kind, strand, places.positions.byte(strand, vertex));
@@ -22,7 +24,7 @@ float measureStrand(const StrandArrays& arrays, uint32_t strand, const Places& p
   if (end - begin == 1 && places.bald_roots) return drop(FindingKind::strand_root_only, begin);
   if (end - begin < 2) return drop(FindingKind::strand_too_short, begin);
 
-  for (uint32_t vertex = begin; vertex < end; ++vertex)
+  for (uint32_t vertex = begin; vertex < end && !in_range; ++vertex)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float value = arrays.positions[std::size_t{vertex} * 3 + axis];
       if (std::fabs(value) <= largest_coordinate) continue;
@@ -46,8 +48,31 @@ float measureStrand(const StrandArrays& arrays, uint32_t strand, const Places& p
   return static_cast<float>(length);
 }
 
+// Lengths of all strands and how many are kept; `range` gets to know all coordinates. In pieces, so that what has been looked over is
+// still in the cache when its strands are measured.
+uint32_t measureStrands(const StrandArrays& arrays, const Places& places, std::pmr::vector<float>& lengths, ValueRange& range, Findings& findings) {
+  constexpr std::size_t piece = 6144;
+  static_assert(piece % ValueRange::lanes == 0);
+  uint32_t strand = 0, kept = 0;
+  const std::span<const float> positions(arrays.positions);
+  for (std::size_t at = 0, end = 0; strand < lengths.size(); at = end) {
+    end = std::min(at + piece, positions.size());
+    range.add(positions.subspan(at, end - at));
+    const bool in_range = range.within(-largest_coordinate, largest_coordinate);
+    for (; strand < lengths.size() && std::size_t{arrays.first_vertex[strand + 1]} * 3 <= end; ++strand) {
+      lengths[strand] = measureStrand(arrays, strand, in_range, places, findings);
+      kept += lengths[strand] != dropped;
+    }
+  }
+  return kept;
+}
+
 void noteMicroStrands(const StrandArrays& arrays, const std::pmr::vector<float>& lengths, const Places& places,
                       Findings& findings) {
+  float least = std::numeric_limits<float>::max(), most = 0;
+  for (const float length : lengths)
+    if (length != dropped) least = std::min(least, length), most = std::max(most, length);
+  if (least >= most * micro_fraction) return;  // the median is at most `most`
   std::pmr::vector<float> kept(lengths.get_allocator());
   kept.reserve(lengths.size());
   std::copy_if(lengths.begin(), lengths.end(), std::back_inserter(kept), [](float length) { return length != dropped; });
@@ -59,13 +84,20 @@ void noteMicroStrands(const StrandArrays& arrays, const std::pmr::vector<float>&
       findings.note(FindingKind::strand_micro, strand, places.positions.byte(strand, arrays.first_vertex[strand]));
 }
 
+ValueRange rangeOf(const FloatArray& values) {
+  ValueRange range;
+  range.add(values);
+  return range;
+}
+
 // Replaces what no radius, UV, mass or colour may be. Only in strands that stay: findings about dropped ones would mislead.
-void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, float default_radius,
+// `radii_in_range`: there are none to replace.
+void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, float default_radius, bool radii_in_range,
                   const Places& places, Findings& findings) {
   for (uint32_t strand = 0; strand < lengths.size(); ++strand) {
     if (lengths[strand] == dropped) continue;
     const uint32_t begin = arrays.first_vertex[strand], end = arrays.first_vertex[strand + 1];
-    if (!arrays.radii.empty())
+    if (!radii_in_range)
       for (uint32_t vertex = begin; vertex < end; ++vertex) {
         float& radius = arrays.radii[vertex];
         if (radius >= 0 && radius <= largest_coordinate) continue;
@@ -109,7 +141,7 @@ void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, 
 // Closes the gaps of dropped strands. Everything moves towards the front, so it can be done in place.
 void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths) {
   uint32_t strands = 0, vertices = 0;
-  const auto move = [](std::pmr::vector<float>& array, std::size_t from, std::size_t to, std::size_t count) {
+  const auto move = [](FloatArray& array, std::size_t from, std::size_t to, std::size_t count) {
     if (array.empty() || from == to) return;
     const auto source = array.begin() + static_cast<std::ptrdiff_t>(from);
     std::copy(source, source + static_cast<std::ptrdiff_t>(count), array.begin() + static_cast<std::ptrdiff_t>(to));
@@ -135,7 +167,14 @@ void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths)
   if (!arrays.root_uvs.empty()) arrays.root_uvs.resize(std::size_t{strands} * 2);
 }
 
-void measure(const StrandArrays& arrays, const std::pmr::vector<float>& lengths, FlkAssetInfo& info) {
+// Zero has two signs, of which a least or greatest value has that of the first: the same whatever the order of comparison.
+float firstOf(const FloatArray& values, std::size_t first, std::size_t step, float value) {
+  for (std::size_t i = first; value == 0 && i < values.size(); i += step)
+    if (values[i] == 0) return values[i];
+  return value;
+}
+
+void measure(const StrandArrays& arrays, const std::pmr::vector<float>& lengths, const ValueRange& positions, FlkAssetInfo& info) {
   info.strand_count = arrays.strandCount();
   info.vertex_count = arrays.vertexCount();
   info.min_vertices_per_strand = UINT32_MAX;
@@ -146,20 +185,10 @@ void measure(const StrandArrays& arrays, const std::pmr::vector<float>& lengths,
     info.max_vertices_per_strand = std::max(info.max_vertices_per_strand, count);
   }
 
-  float low[3] = {largest_coordinate, largest_coordinate, largest_coordinate};
-  float high[3] = {-largest_coordinate, -largest_coordinate, -largest_coordinate};
-  for (std::size_t i = 0; i < arrays.positions.size(); i += 3)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], arrays.positions[i + axis]);
-      high[axis] = std::max(high[axis], arrays.positions[i + axis]);
-    }
-  std::copy(low, low + 3, info.min_bounds);
-  std::copy(high, high + 3, info.max_bounds);
-
-  const auto [thin, thick] = std::minmax_element(arrays.radii.begin(), arrays.radii.end());
-  info.min_radius = *thin;
-  info.max_radius = *thick;
-
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    info.min_bounds[axis] = firstOf(arrays.positions, axis, 3, positions.least(axis, 3));
+    info.max_bounds[axis] = firstOf(arrays.positions, axis, 3, positions.greatest(axis, 3));
+  }
   double sum = 0;
   info.min_length = std::numeric_limits<float>::max();
   info.max_length = 0;
@@ -206,11 +235,8 @@ FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_
   info.strands_in_source = source_strands;
 
   std::pmr::vector<float> lengths(source_strands, memory);
-  uint32_t kept = 0;
-  for (uint32_t strand = 0; strand < source_strands; ++strand) {
-    lengths[strand] = measureStrand(arrays, strand, places, findings);
-    kept += lengths[strand] != dropped;
-  }
+  ValueRange positions;
+  const uint32_t kept = measureStrands(arrays, places, lengths, positions, findings);
   if (kept == 0)
     return report.fail(FLK_ERROR_EMPTY_ASSET, "NO_STRAND_LEFT",
                        "none of its %" PRIu32 " strands can be drawn: %" PRIu64 " have fewer than two vertices, %" PRIu64
@@ -222,10 +248,18 @@ FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_
 
   const float default_radius = defaultRadius(kept);
   noteMicroStrands(arrays, lengths, places, findings);
-  repairValues(arrays, lengths, default_radius, places, findings);
-  if (kept != source_strands) removeDropped(arrays, lengths);
+  ValueRange radii = rangeOf(arrays.radii);
+  const bool radii_in_range = arrays.radii.empty() || radii.within(0, largest_coordinate);
+  repairValues(arrays, lengths, default_radius, radii_in_range, places, findings);
+  if (kept != source_strands) {
+    removeDropped(arrays, lengths);
+    positions = rangeOf(arrays.positions);
+  }
+  if (kept != source_strands || !radii_in_range) radii = rangeOf(arrays.radii);
 
   info.has_radii = !arrays.radii.empty();
+  info.min_radius = info.has_radii ? firstOf(arrays.radii, 0, 1, radii.least()) : default_radius;
+  info.max_radius = info.has_radii ? radii.greatest() == 0 ? arrays.radii.back() : radii.greatest() : default_radius;
   info.has_root_uvs = !arrays.root_uvs.empty();
   info.has_inverse_masses = !arrays.inverse_masses.empty();
   info.has_colors = !arrays.colors.empty();
@@ -237,7 +271,7 @@ FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_
                       " strands, at least 80 um, if the unit is the metre); give radii or set a width on the hair to change it",
                       double{default_radius} * 2e6, kept);
   }
-  measure(arrays, lengths, info);
+  measure(arrays, lengths, positions, info);
   if (info.max_radius == 0) findings.note(FindingKind::radius_all_zero, no_strand, places.radii.offset, info.vertex_count);
   guessUnit(info, findings);
   return FLK_SUCCESS;

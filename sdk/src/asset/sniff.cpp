@@ -108,6 +108,7 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
   if (all.starts_with("\x00\x00\x80\x40"sv) || all.starts_with("\x00\x00\x40\x40"sv)) return format = FLK_FORMAT_TFX, FLK_SUCCESS;
   if (all.starts_with("HAIR")) return format = FLK_FORMAT_HAIR, FLK_SUCCESS;
   if (all.starts_with("ply\n") || all.starts_with("ply\r")) return format = FLK_FORMAT_PLY, FLK_SUCCESS;
+  if (all.starts_with("\x8a" "FLK")) return format = FLK_FORMAT_COOKED, FLK_SUCCESS;
   for (const Signature& signature : binary_signatures)
     if (all.starts_with(signature.start)) return report.fail(signature.result, signature.id, "it is %s", signature.text);
 
@@ -156,7 +157,7 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
   return report.fail(unknown, "FORMAT_UNKNOWN",
                      "the bytes at its start (%sat byte 0) belong to no strand format that is read: give a .tfx "
                      "(TressFX 3 or 4: 00 00 40 40, 00 00 80 40; 1 or 2: text that begins with version), a .hair file (48 41 49 52), a PLY "
-                     "file of strands or the data of USC-HairSalon or CT2Hair",
+                     "file of strands, a cooked file (8a 46 4c 4b) or the data of USC-HairSalon or CT2Hair",
                      hex);
 }
 

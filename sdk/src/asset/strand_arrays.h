@@ -22,6 +22,14 @@ struct Limits {
   uint64_t largestFile() const noexcept { return uint64_t{strands} * 128 + uint64_t{vertices} * 256 + (1u << 20); }
 };
 
+// Leaves new elements as they are: readers fill every one, and zeros first would cost a pass over memory of their own.
+template <class T> struct UnfilledAllocator : std::pmr::polymorphic_allocator<T> {
+  using std::pmr::polymorphic_allocator<T>::polymorphic_allocator;
+  template <class U> void construct(U* place) noexcept { ::new (static_cast<void*>(place)) U; }
+  template <class U> void construct(U* place, const U& value) noexcept { ::new (static_cast<void*>(place)) U(value); }
+};
+using FloatArray = std::vector<float, UnfilledAllocator<float>>;
+
 struct StrandArrays {
   explicit StrandArrays(std::pmr::memory_resource* memory)
       : first_vertex(memory), positions(memory), radii(memory), root_uvs(memory), inverse_masses(memory),
@@ -31,11 +39,11 @@ struct StrandArrays {
   uint32_t vertexCount() const noexcept { return first_vertex.back(); }
 
   std::pmr::vector<uint32_t> first_vertex;   // strands + 1, never falling
-  std::pmr::vector<float> positions;         // 3 a vertex
-  std::pmr::vector<float> radii;             // 1 a vertex; empty: none
-  std::pmr::vector<float> root_uvs;          // 2 a strand; empty: none
-  std::pmr::vector<float> inverse_masses;    // 1 a vertex; empty: none
-  std::pmr::vector<float> colors;            // 3 a vertex; empty: none
+  FloatArray positions;                      // 3 a vertex
+  FloatArray radii;                          // 1 a vertex; empty: none
+  FloatArray root_uvs;                       // 2 a strand; empty: none
+  FloatArray inverse_masses;                 // 1 a vertex; empty: none
+  FloatArray colors;                         // 3 a vertex; empty: none
 };
 
 // Where in the file the values of an array lie, so that a finding can say at which byte to look.

@@ -66,6 +66,7 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
   uint32_t vertex = 0;
   for (uint64_t strand = 0; strand < strands; ++strand) {
     const uint32_t count = cursor.u32();
+    if (count > walk.points - vertex) return fileChanged(report);
     if (!is_wide) {
       cursor.floats({arrays.positions.data() + std::size_t{vertex} * 3, std::size_t{count} * 3});
     } else {
@@ -76,6 +77,7 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
     }
     arrays.first_vertex.push_back(vertex += count);
   }
+  if (vertex != walk.points) return fileChanged(report);
   places.positions = {4, point_size, false, 4};
   places.bald_roots = true;
   return FLK_SUCCESS;

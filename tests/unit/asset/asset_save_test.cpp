@@ -1,7 +1,7 @@
 #include "asset_kit.h"
+#include "temporary_folder.h"
 
 #include <cstdio>
-#include <dirent.h>
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
@@ -9,29 +9,6 @@
 using namespace asset_test;
 
 namespace {
-
-// A folder that is empty again when the test ends.
-class Folder {
-public:
-  Folder() {
-    char name[] = "/tmp/forelock-test-XXXXXX";
-    EXPECT_NE(mkdtemp(name), nullptr);
-    path = name;
-  }
-  ~Folder() {
-    for (const std::string& name : entries()) std::remove((path + "/" + name).c_str());
-    rmdir(path.c_str());
-  }
-  std::vector<std::string> entries() const {
-    std::vector<std::string> names;
-    DIR* folder = opendir(path.c_str());
-    while (const dirent* entry = readdir(folder))
-      if (entry->d_name[0] != '.') names.push_back(entry->d_name);
-    closedir(folder);
-    return names;
-  }
-  std::string path;
-};
 
 std::vector<unsigned char> contents(const std::string& path) {
   std::vector<unsigned char> bytes;

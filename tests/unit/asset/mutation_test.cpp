@@ -39,8 +39,18 @@ std::vector<Seed> textSeeds() {
   return {{"text.tfx", Bytes().text(smallTfxText())}, {"text.ply", Bytes().text(smallPlyText())}, {"written.ply", writtenPly()}};
 }
 
+// And its cooked file.
+Bytes writtenCooked() {
+  const auto loaded = load(smallHair(63));
+  FlkResult result;
+  Bytes file;
+  file.bytes = saved(loaded->asset.get(), FLK_FORMAT_COOKED, result);
+  return file;
+}
+
 std::vector<Seed> allSeeds() {
   std::vector<Seed> all = seeds();
+  all.push_back({"written.flk", writtenCooked()});
   for (Seed& seed : textSeeds()) all.push_back(std::move(seed));
   return all;
 }

@@ -136,3 +136,19 @@ TEST(CommandInspect, NamesColours) {
   EXPECT_EQ(strict.status, 1);
   EXPECT_NE(strict.err.find("its colours are not in the .tfx file"), std::string::npos) << strict.err;
 }
+
+// A cooked file by any name, with the findings of its source; damaged, it says what to do.
+TEST(CommandConvert, Cooked) {
+  const std::string folder = forelock::test::scratchFolder().string(), cooked = folder + "/small.flk", other = folder + "/cooked.tfx";
+  const CommandRun convert = runCommand("convert --strict \"" + smallRecipe() + "\" \"" + cooked + "\"");
+  EXPECT_EQ(convert.status, 0) << convert.err;
+  EXPECT_EQ(convert.err, "") << "nothing is left out";
+  std::filesystem::rename(cooked, other);
+  const CommandRun inspect = runCommand("inspect \"" + other + "\"");
+  EXPECT_EQ(inspect.status, 0) << inspect.err;
+  EXPECT_NE(inspect.out.find("cooked, from arrays"), std::string::npos) << inspect.out;
+  const CommandRun json = runCommand("inspect --json \"" + other + "\"");
+  EXPECT_NE(json.out.find("\"format\": \"cooked\",\n  \"source_format\": \"arrays\","), std::string::npos) << json.out;
+  writeScratch("cut.flk", forelock::test::readAll(other).substr(0, 1000));
+  expectComplaint(runCommand("inspect \"" + folder + "/cut.flk\""), 1, "truncated, fetch it again or cook it again from the source");
+}

@@ -41,7 +41,7 @@ void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
               info.min_bounds[2], info.max_bounds[0], info.max_bounds[1], info.max_bounds[2]);
   std::printf("  length      %.4g to %.4g, mean %.4g\n", info.min_length, info.max_length, info.mean_length);
   std::printf("  width       %.4g to %.4g", 2.0 * info.min_radius, 2.0 * info.max_radius);
-  std::printf(info.has_radii ? "\n" : " (default: 80 um x max(1, 100,000 / strands); preview --width MM changes it)\n");
+  std::printf(info.has_radii ? "\n" : " (default: a share of the size by the strands; preview --width MM changes it)\n");
   std::printf("  attributes  positions%s%s%s%s\n", info.has_radii ? ", widths" : "",
               info.has_root_uvs ? ", root UV" : "", info.has_inverse_masses ? ", inverse masses" : "",
               info.has_colors ? ", colours" : "");

@@ -165,6 +165,8 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
                       double{header.scale}, double{header.rotation[0]}, double{header.rotation[1]}, double{header.rotation[2]},
                       double{header.translation[0]}, double{header.translation[1]}, double{header.translation[2]});
   }
+  findings.note(FindingKind::inverse_mass_implied, no_strand, no_byte, arrays.strandCount());
+  if (header.both_ends != 0) findings.note(FindingKind::both_ends_fixed, no_strand, 0, arrays.strandCount());
   if (header.follow_strands > 0)
     findings.note(FindingKind::tfx_follow_strands_ignored, no_strand, 0, static_cast<uint64_t>(header.follow_strands));
   return FLK_SUCCESS;

@@ -66,7 +66,7 @@ TEST(TfxText, NumbersDoNotDependOnTheLocale) {
 TEST(TfxText, SaysWhatItDoesNotUse) {
   const auto scaled = loadText(replaced(replaced(smallTfxText(), "scale 1.0", "scale 0.5\nwind 3 4"), "PerGuideHair 0", "PerGuideHair 4"));
   ASSERT_EQ(scaled->result, FLK_SUCCESS) << scaled->caught.text();
-  EXPECT_EQ(scaled->codes(), "TFX_TEXT_TRANSFORM_IGNORED TFX_FOLLOW_STRANDS_IGNORED TFX_TEXT_KEY_UNKNOWN WIDTH_DEFAULTED");
+  EXPECT_EQ(scaled->codes(), "TFX_TEXT_TRANSFORM_IGNORED TFX_FOLLOW_STRANDS_IGNORED TFX_TEXT_KEY_UNKNOWN INVERSE_MASS_IMPLIED BOTH_ENDS_FIXED INVERSE_MASS_ALL_ZERO WIDTH_DEFAULTED");
   EXPECT_NE(std::string(scaled->finding("TFX_TEXT_TRANSFORM_IGNORED").text).find("a scale of 0.5"), std::string::npos);
   const auto more = loadText(replaced(smallTfxText(), "numStrands 2", "numStrands 1"));
   ASSERT_EQ(more->result, FLK_SUCCESS);

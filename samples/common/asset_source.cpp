@@ -2,6 +2,7 @@
 #include "asset_source.h"
 
 #include "groom.h"
+#include "tfx_project.h"
 
 #include <algorithm>
 #include <cctype>
@@ -189,6 +190,9 @@ OpenedAsset openAsset(const std::string& source, const ProgressFunction& progres
   FlkAsset asset = nullptr;
   const FlkResult result = flkAssetLoadFile(source.c_str(), &options, &asset);
   finish(opened, result, asset);
+  if (opened.format == "tfx") {
+    noteTfxProject(source, opened.source_findings);
+  }
   return opened;
 }
 

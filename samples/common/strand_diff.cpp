@@ -27,7 +27,7 @@ std::vector<uint32_t> partners(const StrandShapes& a, const StrandShapes& b, con
   for (uint32_t strand = 0; strand < b.shapes.size(); ++strand) {
     if (progress && strand % 1024 == 0) progress(strand, b.shapes.size());
     const StrandShapes::Shape shape = applied(relation, b.shapes[strand]);
-    const RootTree::Found found = tree.nearest(shape[0]);
+    const RootTree::Found found = tree.nearest(shape[0], most);
     const auto add = [&](uint32_t other) {
       const double apart = shapeDistance(shape, a.shapes[other]);
       if (apart <= most) candidates.push_back({apart, other != strand, other, strand});
@@ -121,6 +121,7 @@ void compareAttributes(const Sides& sides, const std::vector<uint32_t>& partner,
   for (uint32_t strand = 0; strand < partner.size(); ++strand) {
     const uint32_t other = partner[strand];
     if (other == kNone || sides.count(sides.a, other) != sides.count(sides.b, strand)) continue;
+    diff.compared_vertices += sides.count(sides.a, other);
     for (uint32_t i = 0; i < sides.count(sides.a, other); ++i) {
       const size_t a = size_t(sides.a.first_vertex[other]) + i, b = sides.vertexB(strand, i);
       if (widths) {
@@ -156,9 +157,9 @@ StrandDiff diffStrands(const FlkStrands& a, bool a_radii, const FlkStrands& b, b
   const RootTree tree(shapes_a);
   StrandDiff diff;
   if (b.strand_count <= a.strand_count) {
-    diff.relation = findRelation(shapes_b, shapes_a, tree);
+    diff.relation = findRelation(shapes_b, shapes_a, tree, options.progress);
   } else {
-    diff.relation = inverse(findRelation(shapes_a, shapes_b, RootTree(shapes_b)));
+    diff.relation = inverse(findRelation(shapes_a, shapes_b, RootTree(shapes_b), options.progress));
   }
   const std::vector<uint32_t> partner = partners(shapes_a, shapes_b, diff.relation, tree, options.progress);
 

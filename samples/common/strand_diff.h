@@ -51,9 +51,10 @@ struct StrandDiff {
   double max_uv_difference = 0;          // after the flip
   // Attributes that one side lacks have no difference; widths are those of their own, no defaults.
   bool has_widths[2] = {}, has_masses[2] = {}, has_colors[2] = {};
+  uint64_t compared_vertices = 0;        // of partners of equal counts, which the attributes below are about
   double width_ratio = 0;                // median of A's over B's after `scale`; 1: widths went along
-  double max_width_difference = 0;       // unit of A, of partners of equal counts
-  uint64_t differing_masses = 0;         // vertices, of partners of equal counts
+  double max_width_difference = 0;       // unit of A
+  uint64_t differing_masses = 0;         // vertices
   double max_color_difference = 0;
 };
 
@@ -63,7 +64,7 @@ struct StrandDiffOptions {
   std::function<void(uint64_t done, uint64_t total)> progress;
 };
 
-// `a_radii`, `b_radii`: whether the widths are the assets' own. Cost: some 20 microseconds a strand. Equal input gives equal output.
+// `a_radii`, `b_radii`: whether the widths are the assets' own. Cost: 5 to 20 microseconds a strand, and 1 s to find that nothing relates them. `progress` is called in two rounds. Equal input gives equal output.
 StrandDiff diffStrands(const FlkStrands& a, bool a_radii, const FlkStrands& b, bool b_radii, const StrandDiffOptions& options = {});
 
 }  // namespace forelock::samples

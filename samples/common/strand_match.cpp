@@ -76,7 +76,7 @@ struct Nearest {
 };
 
 Nearest nearestShape(const StrandShapes::Shape& shape, const StrandShapes& to, const RootTree& tree) {
-  const RootTree::Found found = tree.nearest(shape[0]);
+  const RootTree::Found found = tree.nearest(shape[0], to.mean_length);
   Nearest best;
   for (size_t i = 0; i < found.count; ++i) {
     const double distance = shapeDistance(shape, to.shapes[found.strand[i]]);
@@ -104,8 +104,10 @@ StrandRelation refined(StrandRelation relation, const StrandShapes& from, const 
   std::vector<std::pair<Nearest, size_t>> pairs;
   for (size_t i = 0; i < samples; ++i) {
     const size_t strand = i * from.shapes.size() / samples;
-    pairs.emplace_back(nearestShape(applied(relation, from.shapes[strand]), to, tree), strand);
+    const Nearest near = nearestShape(applied(relation, from.shapes[strand]), to, tree);
+    if (near.distance < to.mean_length) pairs.emplace_back(near, strand);
   }
+  if (pairs.empty()) return relation;
   std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.first.distance != b.first.distance ? a.first.distance < b.first.distance : a.second < b.second; });
   pairs.resize((pairs.size() + 1) / 2);
   Point mean_from{}, mean_to{};
@@ -195,12 +197,13 @@ void RootTree::build(size_t begin, size_t end, int axis) {
   build(middle + 1, end, (axis + 1) % 3);
 }
 
-void RootTree::search(size_t begin, size_t end, int axis, const Point& at, Found& found) const {
+void RootTree::search(size_t begin, size_t end, int axis, const Point& at, double limit_squared, Found& found) const {
   if (begin >= end) return;
   const size_t middle = begin + (end - begin) / 2;
   const Point& root = shapes_.shapes[order_[middle]][0];
   const double squared = squaredDistance(root, at);
-  if (found.count < kNearest || squared < found.squared[found.count - 1]) {
+  const auto bound = [&] { return found.count < kNearest ? limit_squared : found.squared[found.count - 1]; };
+  if (squared < bound() || (squared == limit_squared && found.count < kNearest)) {
     size_t slot = found.count < kNearest ? found.count++ : found.count - 1;
     for (; slot > 0 && squared < found.squared[slot - 1]; --slot) found.squared[slot] = found.squared[slot - 1], found.strand[slot] = found.strand[slot - 1];
     found.squared[slot] = squared;
@@ -208,13 +211,13 @@ void RootTree::search(size_t begin, size_t end, int axis, const Point& at, Found
   }
   const double beyond = at[size_t(axis)] - root[size_t(axis)];
   const bool right = beyond > 0;
-  search(right ? middle + 1 : begin, right ? end : middle, (axis + 1) % 3, at, found);
-  if (found.count < kNearest || beyond * beyond <= found.squared[found.count - 1]) search(right ? begin : middle + 1, right ? middle : end, (axis + 1) % 3, at, found);
+  search(right ? middle + 1 : begin, right ? end : middle, (axis + 1) % 3, at, limit_squared, found);
+  if (beyond * beyond <= bound()) search(right ? begin : middle + 1, right ? middle : end, (axis + 1) % 3, at, limit_squared, found);
 }
 
-RootTree::Found RootTree::nearest(const Point& at) const {
+RootTree::Found RootTree::nearest(const Point& at, double limit) const {
   Found found;
-  search(0, order_.size(), 0, at, found);
+  search(0, order_.size(), 0, at, limit * limit, found);
   return found;
 }
 
@@ -233,14 +236,19 @@ StrandShapes::Shape applied(const StrandRelation& relation, const StrandShapes::
   return result;
 }
 
-StrandRelation findRelation(const StrandShapes& from, const StrandShapes& to, const RootTree& tree) {
+StrandRelation findRelation(const StrandShapes& from, const StrandShapes& to, const RootTree& tree,
+                            const std::function<void(uint64_t, uint64_t)>& progress) {
   // A later candidate has to be better by more than half, so that of equals the simplest is taken; costs below this are all exact.
   constexpr double exact = 1e-6;
   constexpr size_t samples = 24, more_samples = 400;
   StrandRelation best;
   double best_cost = std::numeric_limits<double>::max();
-  for (const double scale : scaleCandidates(from, to))
-    for (const AxisMap& axes : axisCandidates())
+  const std::vector<double> scales = scaleCandidates(from, to);
+  const std::vector<AxisMap> maps = axisCandidates();
+  uint64_t tried = 0;
+  for (const double scale : scales)
+    for (const AxisMap& axes : maps) {
+      if (progress) progress(tried++, scales.size() * maps.size());
       for (const bool reversed : {false, true}) {
         StrandRelation relation{scale, axes, {}, reversed};
         const Point middle_from{0.5 * (from.low[0] + from.high[0]), 0.5 * (from.low[1] + from.high[1]), 0.5 * (from.low[2] + from.high[2])};
@@ -252,6 +260,7 @@ StrandRelation findRelation(const StrandShapes& from, const StrandShapes& to, co
           if (best_cost <= exact) return best;
         }
       }
+    }
   // Scale and shift were those of the sets, which differ where strands are missing.
   double cost = costOf(best, from, to, tree, more_samples);
   StrandRelation next = best;

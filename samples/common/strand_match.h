@@ -46,11 +46,12 @@ class RootTree {
     double squared[kNearest];
     size_t count = 0;
   };
-  Found nearest(const Point& at) const;
+  // Those within `limit`, the nearest first.
+  Found nearest(const Point& at, double limit) const;
 
  private:
   void build(size_t begin, size_t end, int axis);
-  void search(size_t begin, size_t end, int axis, const Point& at, Found& found) const;
+  void search(size_t begin, size_t end, int axis, const Point& at, double limit_squared, Found& found) const;
 
   const StrandShapes& shapes_;
   std::vector<uint32_t> order_;
@@ -62,7 +63,9 @@ double shapeDistance(const StrandShapes::Shape& a, const StrandShapes::Shape& b)
 StrandShapes::Shape applied(const StrandRelation& relation, const StrandShapes::Shape& shape);
 
 // The relation that makes `to` of `from`, of which there should be no more strands: the simplest of those that fit best.
-StrandRelation findRelation(const StrandShapes& from, const StrandShapes& to, const RootTree& tree);
+// `progress` may be empty.
+StrandRelation findRelation(const StrandShapes& from, const StrandShapes& to, const RootTree& tree,
+                            const std::function<void(uint64_t done, uint64_t total)>& progress);
 
 // What makes `from` of `to`.
 StrandRelation inverse(const StrandRelation& relation);

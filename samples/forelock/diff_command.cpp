@@ -49,16 +49,15 @@ const char* uvName(UvRelation uvs) {
 }
 
 // The units that a factor is likely to be between.
-const char* unitsText(double a_over_b) {
+std::string unitsText(double a_over_b) {
   const struct {
-    double factor;
-    const char* text;
-  } known[] = {{0.01, "as metres to centimetres"},  {100, "as centimetres to metres"}, {0.001, "as metres to millimetres"}, {1000, "as millimetres to metres"},
-               {0.1, "as centimetres to millimetres"}, {10, "as millimetres to centimetres"}, {0.0254, "as metres to inches"}, {1 / 0.0254, "as inches to metres"},
-               {2.54, "as centimetres to inches"}, {1 / 2.54, "as inches to centimetres"}, {0.3048, "as metres to feet"}, {1 / 0.3048, "as feet to metres"}};
-  for (const auto& entry : known)
-    if (std::abs(a_over_b / entry.factor - 1) < 1e-6) return entry.text;
-  return "no pair of usual units";
+    double metres;
+    const char* name;
+  } units[] = {{1, "metres"}, {0.01, "centimetres"}, {0.001, "millimetres"}, {0.0254, "inches"}, {0.3048, "feet"}, {0.1, "decimetres"}};
+  for (const auto& a : units)
+    for (const auto& b : units)
+      if (std::abs(a_over_b * a.metres / b.metres - 1) < 1e-6) return std::string("as if A were in ") + a.name + " and B in " + b.name;
+  return "which is between no usual units";
 }
 
 // The options of convert that make A of B, but for a shift.
@@ -88,8 +87,8 @@ void printPairs(const char* name, const std::vector<StrandPair>& pairs) {
     std::printf("  %-11s strand %u of A and %u of B: %.4g\n", i ? "" : name, pairs[i].a, pairs[i].b, pairs[i].distance);
 }
 
-void printAttribute(const char* name, const bool (&has)[2], const std::string& both) {
-  if (has[0] && has[1]) std::printf("  %-11s %s\n", name, both.c_str());
+void printAttribute(const char* name, const bool (&has)[2], uint64_t compared, const std::string& both) {
+  if (has[0] && has[1]) std::printf("  %-11s %s\n", name, compared ? both.c_str() : "in both, not compared: no two partners have as many vertices");
   else if (has[0] || has[1]) std::printf("  %-11s only in %s\n", name, has[0] ? "A" : "B");
 }
 
@@ -111,7 +110,7 @@ void printText(const StrandDiff& diff, const FlkAssetInfo (&info)[2], const Diff
   if (!diff.only_a.empty()) std::printf("; only in A %s: %s", groupedDigits(diff.only_a.size()).c_str(), numbersText(diff.only_a).c_str());
   if (!diff.only_b.empty()) std::printf("; only in B %s: %s", groupedDigits(diff.only_b.size()).c_str(), numbersText(diff.only_b).c_str());
   std::printf("\n");
-  if (relation.scale != 1) std::printf("  scale       A is %.9g x B, %s\n", relation.scale, unitsText(relation.scale));
+  if (relation.scale != 1) std::printf("  scale       A is %.9g x B, %s\n", relation.scale, unitsText(relation.scale).c_str());
   if (!isIdentity(relation.axes)) std::printf("  axes        x,y,z of A are %s of B%s\n", axesText(relation.axes).c_str(), relation.axes.mirrors() ? ", which mirrors the hair" : "");
   if (relation.reversed) std::printf("  direction   roots of A are tips of B\n");
   if (relation.shift != std::array<double, 3>{}) std::printf("  shift       B has to move by (%.6g, %.6g, %.6g), unit of A\n", relation.shift[0], relation.shift[1], relation.shift[2]);
@@ -128,9 +127,9 @@ void printText(const StrandDiff& diff, const FlkAssetInfo (&info)[2], const Diff
   if (diff.uvs != UvRelation::absent)
     std::printf("  root UVs    %s%s\n", uvName(diff.uvs), diff.uvs == UvRelation::different ? format(", by %.4g", diff.max_uv_difference).c_str() : "");
   const bool widths_along = std::abs(diff.width_ratio - 1) < 1e-3;
-  printAttribute("widths", diff.has_widths, format("by %.4g at most", diff.max_width_difference) + (widths_along ? "" : format("; those of A are %.4g x B's after the scale", diff.width_ratio)));
-  printAttribute("masses", diff.has_masses, groupedDigits(diff.differing_masses) + " vertices differ");
-  printAttribute("colours", diff.has_colors, format("by %.4g at most", diff.max_color_difference));
+  printAttribute("widths", diff.has_widths, diff.compared_vertices, format("by %.4g at most", diff.max_width_difference) + (widths_along ? "" : format("; those of A are %.4g x B's after the scale", diff.width_ratio)));
+  printAttribute("masses", diff.has_masses, diff.compared_vertices, groupedDigits(diff.differing_masses) + " vertices differ");
+  printAttribute("colours", diff.has_colors, diff.compared_vertices, format("by %.4g at most", diff.max_color_difference));
   const std::string options = convertOptions(diff);
   if (!options.empty())
     std::printf("  to make A   forelock convert %s OUT%s%s\n", arguments.b.c_str(), options.c_str(), relation.shift != std::array<double, 3>{} ? ", and move it" : "");
@@ -165,6 +164,7 @@ void printJson(const StrandDiff& diff, const FlkAssetInfo (&info)[2], const Diff
     json["differing"] = diff.differing;
     json["first"] = pairsJson(diff.first);
     json["furthest"] = pairsJson(diff.worst);
+    json["compared_vertices"] = diff.compared_vertices;
     json["root_uvs"] = {{"relation", uvName(diff.uvs)}, {"max_difference", diff.max_uv_difference}};
     json["widths"] = {{"a", diff.has_widths[0]}, {"b", diff.has_widths[1]}, {"ratio", diff.width_ratio}, {"max_difference", diff.max_width_difference}};
     json["masses"] = {{"a", diff.has_masses[0]}, {"b", diff.has_masses[1]}, {"differing", diff.differing_masses}};

@@ -28,6 +28,10 @@ Json guessJson(const Guess& guess) {
 }
 
 void printSpread(const char* name, const Spread& spread, const char* after = "") {
+  if (spread.min == spread.max) {
+    std::printf("  %-11s %.4g%s\n", name, spread.min, after);
+    return;
+  }
   std::printf("  %-11s %.4g to %.4g, median %.4g, mean %.4g%s\n", name, spread.min, spread.max, spread.median, spread.mean, after);
 }
 

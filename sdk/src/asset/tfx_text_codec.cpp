@@ -92,6 +92,9 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
   std::string_view version_word = text.word();
   float version = 0;
   if (!TextCursor::parse(version_word, version)) return notNumber(report, text, "the version", version_word);
+  if (version == 3)
+    return report.fail(FLK_ERROR_FORMAT_UNKNOWN, "TFX_PROJECT", "it is a text of TressFX 3 (byte %" PRIu64 "), a project or settings and no strands: "
+                       "give the .tfx files that the project names", text.word_at());
   if (!(version >= 1 && version < 3))
     return report.fail(FLK_ERROR_FORMAT_UNKNOWN, "TFX_TEXT_VERSION", "it is a text file of TressFX %g (byte %" PRIu64
                        "), but only 1 and 2 have been text: the file is damaged or newer, export it again as TressFX 4",

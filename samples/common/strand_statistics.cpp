@@ -148,9 +148,11 @@ Guess guessUpAxis(const FlkAssetInfo& info, const StrandStatistics& numbers) {
       return {names[axis], text("the hair is above the origin along it, from %.3g to %.3g", double(info.min_bounds[axis]), double(info.max_bounds[axis]))};
   }
   const std::array<double, 3>& lies = numbers.direction;
-  for (size_t axis = 0; axis < 3; ++axis) {
+  for (size_t axis = 1; axis < 3; ++axis) {  // no program has x up
     if (std::abs(lies[axis]) < 0.6 || std::abs(lies[axis]) < 0.85 * std::hypot(lies[0], lies[1], lies[2])) continue;
-    return {std::string(lies[axis] > 0 ? "-" : "") + names[axis], text("the hair hangs the other way: tips are %.2g of a length from roots along it, on average", std::abs(lies[axis]))};
+    return {names[axis], text(lies[axis] < 0 ? "the hair hangs down along it: its tips are %.2g of a length below the roots, on average"
+                                              : "the hair stands up along it: its tips are %.2g of a length above the roots, on average",
+                              std::abs(lies[axis]))};
   }
   return {"", "the hair is around the origin and lies in all directions"};
 }

@@ -43,7 +43,7 @@ struct Guess {
   std::string value, why;
 };
 Guess guessUnit(const FlkAssetInfo& info);                                  // "m", "cm", "mm"
-Guess guessUpAxis(const FlkAssetInfo& info, const StrandStatistics& numbers);  // "x", "-x", "y", "-y", "z", "-z"
+Guess guessUpAxis(const FlkAssetInfo& info, const StrandStatistics& numbers);  // "x", "y", "z"
 
 // Device memory of a hair made of it (flkHairGetInfo): 16 bytes a vertex, 4 a segment, 4 a vertex for colours.
 uint64_t hairBytes(const FlkAssetInfo& info);

@@ -20,6 +20,7 @@ void collect(const std::string& text, char mark, std::set<std::string>& codes) {
   for (size_t begin = 0; (begin = text.find(mark, begin)) != std::string::npos; ++begin) {
     const size_t end = text.find_first_not_of(letters, begin + 1);
     if (end == std::string::npos || text[end] != mark) continue;
+    if (text.compare(end + 1, 2, "sv") == 0) continue;  // bytes of a file
     const std::string code = text.substr(begin + 1, end - begin - 1);
     if (code.find('_') != std::string::npos) codes.insert(code);
   }

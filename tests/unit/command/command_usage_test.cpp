@@ -68,7 +68,8 @@ TEST(CommandUsage, WrongUsageIsTwo) {
 }
 
 TEST(CommandUsage, WhatIsWrongWithAnAssetIsOne) {
-  expectComplaint(runCommand("plan nowhere.tfx"), 1, "nowhere.tfx: ");
+  expectComplaint(runCommand("plan nowhere.tfx"), 1, "nowhere.tfx: cannot be opened: No such file or directory; check the path");
+  expectComplaint(runCommand("inspect long-wavy"), 1, "there is a groom of this name: write groom:long-wavy");
   expectComplaint(runCommand("report nowhere"), 1, "nowhere: no such folder");
   expectComplaint(runCommand("plan groom:nowhere"), 1, "groom:nowhere: no such groom");
   expectComplaint(runCommand("plan --scene nowhere.json"), 1, "nowhere.json: cannot be read");

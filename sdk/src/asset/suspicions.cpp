@@ -138,28 +138,42 @@ uint64_t mixed(uint64_t hash, uint64_t value) noexcept {
   return hash ^ hash >> 29;
 }
 
-// Strands equal to one before them, vertex for vertex. The hash sees root, middle and tip; equality is then proven. Chains are cut after
-// `longest_chain`, so that strands made to collide cost no more than others.
+// Strands equal to one before them, vertex for vertex. The hash sees the first three vertices, which are one or two cache lines; equality is then
+// proven. Chains are cut after `longest_chain`, so that strands made to collide cost no more than others.
 void noteDuplicates(const Subject& s, std::pmr::memory_resource* memory) {
   constexpr int longest_chain = 16;
+  constexpr uint32_t ahead = 16;  // strands; the table is larger than a cache
+  struct Slot {
+    uint32_t tag, strand;
+  };
   const uint64_t mask = std::bit_ceil(uint64_t{s.strands()} * 2) - 1;
-  std::pmr::vector<uint32_t> table(mask + 1, no_strand, memory);
-  for (uint32_t strand = 0; strand < s.strands(); ++strand) {
-    const uint32_t first = s.first(strand), last = s.last(strand), count = last - first + 1;
-    uint64_t hash = count;
-    for (const uint32_t vertex : {first, first + count / 2, last}) {
-      uint32_t words[3];
-      std::memcpy(words, s.position(vertex), sizeof words);
-      hash = mixed(mixed(hash, uint64_t{words[0]} << 32 | words[1]), words[2]);
+  std::pmr::vector<Slot> table(mask + 1, Slot{0, no_strand}, memory);
+  const auto hashOf = [&](uint32_t strand) {
+    const uint32_t count = s.last(strand) - s.first(strand) + 1;
+    uint32_t words[9] = {};
+    std::memcpy(words, s.position(s.first(strand)), std::min(count, 3u) * 12);
+    uint64_t hash = mixed(count, words[8]);
+    for (int i = 0; i < 8; i += 2) hash = mixed(hash, uint64_t{words[i]} << 32 | words[i + 1]);
+    return hash ^ hash >> 32;
+  };
+  std::array<uint64_t, ahead> hashes{};
+  for (uint32_t next = 0; next < s.strands() + ahead; ++next) {
+    const uint64_t hash = hashes[next % ahead];
+    if (next < s.strands()) {
+      hashes[next % ahead] = hashOf(next);
+      __builtin_prefetch(&table[hashes[next % ahead] & mask], 1);
     }
+    if (next < ahead) continue;
+    const uint32_t strand = next - ahead, first = s.first(strand), count = s.last(strand) - first + 1;
+    const auto tag = static_cast<uint32_t>(hash >> 32);
     for (int step = 0; step < longest_chain; ++step) {
-      uint32_t& slot = table[(hash + static_cast<uint64_t>(step)) & mask];
-      if (slot == no_strand) {
-        slot = strand;
+      Slot& slot = table[(hash + static_cast<uint64_t>(step)) & mask];
+      if (slot.strand == no_strand) {
+        slot = {tag, strand};
         break;
       }
-      if (s.last(slot) - s.first(slot) + 1 != count) continue;
-      if (std::memcmp(s.position(s.first(slot)), s.position(first), std::size_t{count} * 12) != 0) continue;
+      if (slot.tag != tag || s.last(slot.strand) - s.first(slot.strand) + 1 != count) continue;
+      if (std::memcmp(s.position(s.first(slot.strand)), s.position(first), std::size_t{count} * 12) != 0) continue;
       s.note(FindingKind::strand_duplicate, strand, s.places.positions);
       break;
     }

@@ -9,8 +9,8 @@
 namespace forelock {
 
 // After everything else: `arrays` keep what asset.h promises, `info` holds their measures. `lengths`: of the strands of the source, in
-// its order, negative where one was dropped; `median_length` of the others. Cost: about 3 ms a million vertices. Temporaries are
-// taken from `memory`: 8 to 16 bytes a strand. Throws std::bad_alloc.
+// its order, negative where one was dropped; `median_length` of the others. Cost: about 4 ms a million vertices. Temporaries are
+// taken from `memory`: 16 to 32 bytes a strand. Throws std::bad_alloc.
 void noteSuspicions(const StrandArrays& arrays, const Places& places, std::span<const float> lengths, double median_length,
                     const FlkAssetInfo& info, std::pmr::memory_resource* memory, Findings& findings);
 

@@ -100,10 +100,10 @@ TEST(Suspicions, Duplicates) {
   EXPECT_EQ(finding.count, 3u);
   EXPECT_EQ(finding.strands[0], 100u);
   EXPECT_EQ(finding.strands[2], 102u);
-  // Numbers are those of the source where strands before were dropped, and equal roots, middles and tips alone are no copy.
+  // Numbers are those of the source where strands before were dropped, and equal vertices at the start alone are no copy.
   Arrays dropped;
   dropped.strand({1, 1, 1, 1, 1, 1}).goodStrand().strand({2, 2, 2, 2, 2, 2}).goodStrand(1).goodStrand();
-  dropped.strand({5, 0, 0, 5, 1, 0, 5, 2, 0, 5, 3, 0, 5, 4, 0}).strand({5, 0, 0, 5, 1, 0.5f, 5, 2, 0, 5, 3, 0, 5, 4, 0});
+  dropped.strand({5, 0, 0, 5, 1, 0, 5, 2, 0, 5, 3, 0, 5, 4, 0}).strand({5, 0, 0, 5, 1, 0, 5, 2, 0, 5, 3, 0, 5, 4, 0.5f});
   const FlkFinding shifted = create(dropped)->finding("STRAND_DUPLICATE");
   EXPECT_EQ(shifted.count, 1u);
   EXPECT_EQ(shifted.strands[0], 4u);
@@ -157,11 +157,11 @@ TEST(Suspicions, LongStrandsAndFarHair) {
   EXPECT_NE(std::string(away->finding("FAR_FROM_ORIGIN").text).find("floats are 0.00098 apart"), std::string::npos) << away->finding("FAR_FROM_ORIGIN").text;
 }
 
-// Strands made to meet in the table, all with one root, middle and tip: the work stays linear. With whole chains walked
+// Strands made to meet in the table, all with the same first three vertices: the work stays linear. With whole chains walked
 // these would be 2e9 comparisons.
 TEST(Suspicions, DuplicatesInLinearTime) {
   Arrays arrays;
-  for (int i = 0; i < 60'000; ++i) arrays.strand({0, 0, 0, static_cast<float>(i), 0, 0, 0, 1, 0, 0, 2, 0});
+  for (int i = 0; i < 60'000; ++i) arrays.strand({0, 0, 0, 0, 1, 0, 0, 2, 0, static_cast<float>(i), 3, 0});
   const auto begin = std::chrono::steady_clock::now();
   const auto made = create(arrays);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -157,6 +157,13 @@ Guess guessUpAxis(const FlkAssetInfo& info, const StrandStatistics& numbers) {
   return {"", "the hair is around the origin and lies in all directions"};
 }
 
+double followWidthScale(const FlkAssetInfo& info, uint32_t follow) {
+  double side = 0;
+  for (int axis = 0; axis < 3; ++axis) side = std::max(side, double(info.max_bounds[axis]) - double(info.min_bounds[axis]));
+  const double wanted = side / 5000 * std::max(1.0, 1e5 / (double(info.strand_count) * (1.0 + follow))), held = 2 * double(info.max_radius);
+  return follow > 0 && held > wanted ? wanted / held : 1;
+}
+
 uint64_t hairBytes(const FlkAssetInfo& info) {
   const uint64_t vertices = info.vertex_count;
   return vertices * 16 + (vertices - info.strand_count) * 4 + (info.has_colors ? vertices * 4 : 0);

@@ -48,4 +48,8 @@ Guess guessUpAxis(const FlkAssetInfo& info, const StrandStatistics& numbers);  /
 // Device memory of a hair made of it (flkHairGetInfo): 16 bytes a vertex, 4 a segment, 4 a vertex for colours.
 uint64_t hairBytes(const FlkAssetInfo& info);
 
+// What a default width (FlkAssetInfo.has_radii is 0) is multiplied by where each strand gets `follow` more beside it: the rule of docs/findings.md
+// counts them too, but where one of its bounds decided, more strands are no reason to be thinner. (0, 1].
+double followWidthScale(const FlkAssetInfo& info, uint32_t follow);
+
 }  // namespace forelock::samples

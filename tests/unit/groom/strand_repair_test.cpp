@@ -104,4 +104,16 @@ TEST(StrandStatistics, Guesses) {
   EXPECT_EQ(guessUpAxis(info(1.5f, 1.8f), numbers).value, "z") << "where it stands says more";
 }
 
+// 2,000 strands over 0.5 m would be 5 mm wide by their number, and are 0.5 by the bound: with 9 beside each the number still says as much.
+TEST(StrandStatistics, FollowStrandsThinTheDefaultWidthOnceItsBoundAllows) {
+  FlkAssetInfo info{};
+  info.strand_count = 2000;
+  info.max_bounds[0] = 0.5f;
+  info.max_radius = 0.5f * 0.0005f;
+  EXPECT_EQ(followWidthScale(info, 0), 1.0);
+  EXPECT_NEAR(followWidthScale(info, 9), 1, 1e-6);
+  EXPECT_NEAR(followWidthScale(info, 19), 0.5, 1e-6) << "40,000 strands: 0.25 mm";
+  EXPECT_NEAR(followWidthScale(info, 999), 0.2, 1e-6) << "the width of a hair, 1/5,000";
+}
+
 }  // namespace forelock::samples

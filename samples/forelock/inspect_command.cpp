@@ -82,7 +82,7 @@ Written writeRepaired(const OpenedAsset& opened, const Inspected& seen, const In
 }
 
 void printWritten(const Written& written, const std::string& path) {
-  for (const Repair& repair : written.repairs) std::printf("  %-11s %s: %s %s\n", "changed", repair.code.c_str(), groupedDigits(repair.count).c_str(), repair.what.c_str());
+  for (const Repair& repair : written.repairs) std::printf("  %-11s %s x %s: %s\n", "changed", repair.code.c_str(), groupedDigits(repair.count).c_str(), repair.what.c_str());
   if (written.repairs.empty()) std::printf("  %-11s nothing\n", "changed");
   std::printf("  %-11s %s: %s strands, %s vertices", "written", path.c_str(), groupedDigits(written.info.strand_count).c_str(), groupedDigits(written.info.vertex_count).c_str());
   std::string left;

@@ -100,9 +100,9 @@ TEST(CommandInspect, RepairsAndListsEachChange) {
   const std::string in = faulty(), before = readAll(in), out = (scratchFolder() / "mended.ply").string();
   const CommandRun run = runCommand("inspect " + quoted(in) + " --repair " + quoted(out));
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_NE(run.out.find("changed     STRAND_MICRO: 1 strands removed\n"), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("changed     STRAND_DUPLICATE: 1 copies of strands removed\n"), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("changed     SEGMENT_ZERO_LENGTH: 1 repeated vertices removed\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("changed     STRAND_MICRO x 1: strands removed\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("changed     STRAND_DUPLICATE x 1: copies of strands removed\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("changed     SEGMENT_ZERO_LENGTH x 1: repeated vertices removed\n"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("mended.ply: 12 strands, 48 vertices\n"), std::string::npos) << run.out;
   EXPECT_EQ(readAll(in), before);
   const Json diff = Json::parse(runCommand("diff --json " + quoted(writeScratch("tuft.ply", plyText(tuft()))) + " " + quoted(out)).out);

@@ -2,6 +2,7 @@
 #include "asset_source.h"
 
 #include "groom.h"
+#include "tfx_project.h"
 
 #include <algorithm>
 #include <cctype>
@@ -189,7 +190,16 @@ OpenedAsset openAsset(const std::string& source, const ProgressFunction& progres
   OpenedAsset opened = prepare(source, options);
   FlkAsset asset = nullptr;
   const FlkResult result = flkAssetLoadFile(source.c_str(), &options, &asset);
+  if (result == FLK_ERROR_IO && isName(source) && !fs::exists(source)) {
+    const std::vector<std::string> names = groomNames();
+    if (std::find(names.begin(), names.end(), source) != names.end()) {
+      throw AssetError(result, source + ": no such file, but there is a groom of this name: write groom:" + source);
+    }
+  }
   finish(opened, result, asset);
+  if (opened.format == "tfx") {
+    noteTfxProject(source, opened.source_findings);
+  }
   return opened;
 }
 

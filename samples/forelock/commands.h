@@ -27,6 +27,7 @@ struct UsageError : std::runtime_error {
 void addGroomCommand(CLI::App& program, int& exit_code);
 void addInspectCommand(CLI::App& program, int& exit_code);
 void addConvertCommand(CLI::App& program, int& exit_code);
+void addDiffCommand(CLI::App& program, int& exit_code);
 void addPreviewCommand(CLI::App& program, int& exit_code);
 void addPlanCommand(CLI::App& program, int& exit_code);
 void addReportCommand(CLI::App& program, int& exit_code);

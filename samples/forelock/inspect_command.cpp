@@ -1,130 +1,151 @@
-// `forelock inspect`: what is in an asset, and what is wrong with it. SPDX-License-Identifier: MIT
+// `forelock inspect`: what is in an asset, what is wrong with it, and how to mend it. SPDX-License-Identifier: MIT
 #include "commands.h"
+#include "inspect_batch.h"
+#include "inspect_report.h"
 #include "progress.h"
+#include "strand_edit.h"
 
-#include <nlohmann/json.hpp>
-
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <stdexcept>
 
 namespace forelock::samples {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 struct InspectArguments {
-  std::string asset;
+  std::vector<std::string> assets;
+  std::string csv, repair;
+  std::vector<std::string> repair_only, repair_also;
   bool json = false;
   bool strict = false;
+  bool overwrite = false;
 };
 
 constexpr const char* kExamples =
-    "Lengths and widths are in the asset's own unit, metres by convention. Findings are explained in\n"
-    "docs/findings.md; `repaired` ones were mended while loading, the file itself is never touched.\n\n"
+    "Lengths and widths are in the asset's own unit, metres by convention; unit and up axis are guesses. Findings are explained in\n"
+    "docs/findings.md, the JSON in docs/inspect-json.md. The input is never touched.\n\n"
     "Examples:\n"
     "  forelock inspect pony.tfx\n"
     "  forelock inspect groom:long-wavy --json\n"
-    "  forelock inspect --strict pony.hair && echo clean     exit status 1 on any warning or error\n";
+    "  forelock inspect grooms/ --csv grooms.csv             a line a file; one that cannot be read does not stop the rest\n"
+    "  forelock inspect --strict pony.hair && echo clean     exit status 1 on any warning or error\n"
+    "  forelock inspect pony.hair --repair mended.hair       copies and stray strands go; every change is listed\n"
+    "  forelock inspect pony.hair --repair turned.hair --repair-only ROOT_AT_TIP\n";
 
-void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::vector<AssetFinding>& findings) {
-  std::printf("%s\n", opened.label.c_str());
-  const bool cooked = info.format == FLK_FORMAT_COOKED;
-  std::printf("  format      %s%s%s\n", opened.format.c_str(), cooked ? ", from " : "", cooked ? formatName(info.source_format) : "");
-  std::printf("  strands     %s", groupedDigits(info.strand_count).c_str());
-  if (info.strands_in_source != info.strand_count) {
-    std::printf(" of %s (the rest cannot be drawn)", groupedDigits(info.strands_in_source).c_str());
-  }
-  std::printf("\n  vertices    %s, ", groupedDigits(info.vertex_count).c_str());
-  if (info.min_vertices_per_strand == info.max_vertices_per_strand) {
-    std::printf("%u a strand\n", info.max_vertices_per_strand);
-  } else {
-    std::printf("%u to %u a strand\n", info.min_vertices_per_strand, info.max_vertices_per_strand);
-  }
-  std::printf("  bounds      (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g)\n", info.min_bounds[0], info.min_bounds[1],
-              info.min_bounds[2], info.max_bounds[0], info.max_bounds[1], info.max_bounds[2]);
-  std::printf("  length      %.4g to %.4g, mean %.4g\n", info.min_length, info.max_length, info.mean_length);
-  std::printf("  width       %.4g to %.4g", 2.0 * info.min_radius, 2.0 * info.max_radius);
-  std::printf(info.has_radii ? "\n" : " (default: 80 um x max(1, 100,000 / strands); preview --width MM changes it)\n");
-  std::printf("  attributes  positions%s%s%s%s\n", info.has_radii ? ", widths" : "",
-              info.has_root_uvs ? ", root UV" : "", info.has_inverse_masses ? ", inverse masses" : "",
-              info.has_colors ? ", colours" : "");
-  std::printf("  memory      %s\n", readableBytes(info.bytes_host + info.bytes_mapped).c_str());
-  if (findings.empty()) {
-    std::printf("  findings    none\n");
-  }
-  for (const AssetFinding& finding : findings) {
-    std::printf("  %-11s %s x %s%s\n", severityName(finding.severity), finding.code.c_str(),
-                groupedDigits(finding.count).c_str(), finding.repaired ? ", repaired" : "");
-    std::printf("              %s\n", finding.text.c_str());
-    if (!finding.strands.empty()) {
-      std::printf("              strands");
-      for (const uint32_t strand : finding.strands) {
-        std::printf(" %u", strand);
-      }
-      std::printf("%s\n", finding.count > finding.strands.size() ? " ..." : "");
-    }
-    if (finding.byte_offset != UINT64_MAX) {
-      std::printf("              first at byte %s\n", groupedDigits(finding.byte_offset).c_str());
-    }
-  }
+OpenedAsset open(const std::string& source) {
+  Progress progress("opening " + source);
+  return openAsset(source, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
 }
 
-void printJson(const OpenedAsset& opened, const FlkAssetInfo& info, const std::vector<AssetFinding>& findings) {
-  nlohmann::ordered_json json;
-  json["asset"] = opened.label;
-  json["format"] = opened.format;
-  if (info.format == FLK_FORMAT_COOKED) json["source_format"] = formatName(info.source_format);
-  json["strands"] = info.strand_count;
-  json["strands_in_source"] = info.strands_in_source;
-  json["vertices"] = info.vertex_count;
-  json["vertices_per_strand"] = {{"min", info.min_vertices_per_strand}, {"max", info.max_vertices_per_strand}};
-  json["bounds"] = {{"min", info.min_bounds}, {"max", info.max_bounds}};
-  json["length"] = {{"min", info.min_length}, {"mean", info.mean_length}, {"max", info.max_length}};
-  json["width"] = {{"min", 2.0f * info.min_radius},
-                   {"max", 2.0f * info.max_radius},
-                   {"source", info.has_radii ? "asset" : "default"}};
-  json["attributes"] = {{"widths", info.has_radii != 0},
-                        {"root_uvs", info.has_root_uvs != 0},
-                        {"inverse_masses", info.has_inverse_masses != 0},
-                        {"colors", info.has_colors != 0}};
-  json["bytes_host"] = info.bytes_host;
-  json["bytes_mapped"] = info.bytes_mapped;
-  json["findings"] = nlohmann::ordered_json::array();
-  for (const AssetFinding& finding : findings) {
-    nlohmann::ordered_json entry;
-    entry["code"] = finding.code;
-    entry["severity"] = severityName(finding.severity);
-    entry["repaired"] = finding.repaired;
-    entry["count"] = finding.count;
-    entry["strands"] = finding.strands;
-    entry["byte_offset"] = nullptr;
-    if (finding.byte_offset != UINT64_MAX) {
-      entry["byte_offset"] = finding.byte_offset;
-    }
-    entry["text"] = finding.text;
-    json["findings"].push_back(entry);
+std::vector<std::string> wantedRepairs(const InspectArguments& arguments) {
+  std::vector<std::string> codes = arguments.repair_only;
+  if (codes.empty()) {
+    for (const RepairKind& kind : repairKinds())
+      if (kind.unasked) codes.emplace_back(kind.code);
   }
-  const auto replace = nlohmann::ordered_json::error_handler_t::replace;  // a file name need not be UTF-8
-  std::printf("%s\n", json.dump(2, ' ', false, replace).c_str());
+  codes.insert(codes.end(), arguments.repair_also.begin(), arguments.repair_also.end());
+  return codes;
+}
+
+struct Written {
+  std::vector<Repair> repairs;
+  std::vector<AssetMessage> said;  // above all what the format cannot hold
+  FlkAssetInfo info{};
+  std::vector<AssetFinding> left;
+};
+
+Written writeRepaired(const OpenedAsset& opened, const Inspected& seen, const InspectArguments& arguments) {
+  std::error_code error;
+  if (!arguments.overwrite && fs::equivalent(opened.label, arguments.repair, error))
+    throw UsageError(arguments.repair + ": is the input itself, which is left as it is: name another file, or add --overwrite-input");
+  FlkStrands held{};
+  flkAssetGetStrands(opened.asset.get(), &held);
+  EditableStrands strands = editableStrands(held, seen.info.has_radii != 0);
+  Written written;
+  written.repairs = repairsOnLoading(seen.findings);
+  for (Repair& repair : repairStrands(strands, seen.info, seen.findings, wantedRepairs(arguments))) written.repairs.push_back(std::move(repair));
+  const OpenedAsset mended = assetOf(strands.view(), arguments.repair);
+  try {
+    written.said = saveAsset(mended, arguments.repair);
+  } catch (const AssetError& failure) {
+    const bool uneven = std::any_of(written.repairs.begin(), written.repairs.end(), [](const Repair& repair) { return repair.code == "SEGMENT_ZERO_LENGTH"; });
+    if (failure.result != FLK_ERROR_LIMIT || !uneven) throw;
+    throw AssetError(failure.result, std::string(failure.what()) + "; or leave repeated vertices in, with --repair-only and without SEGMENT_ZERO_LENGTH");
+  }
+  flkAssetGetInfo(mended.asset.get(), &written.info);
+  written.left = findingsOf(mended);
+  return written;
+}
+
+void printWritten(const Written& written, const std::string& path) {
+  for (const Repair& repair : written.repairs) std::printf("  %-11s %s x %s: %s\n", "changed", repair.code.c_str(), groupedDigits(repair.count).c_str(), repair.what.c_str());
+  if (written.repairs.empty()) std::printf("  %-11s nothing\n", "changed");
+  std::printf("  %-11s %s: %s strands, %s vertices", "written", path.c_str(), groupedDigits(written.info.strand_count).c_str(), groupedDigits(written.info.vertex_count).c_str());
+  std::string left;
+  for (const AssetFinding& finding : written.left)
+    if (finding.severity != FLK_SEVERITY_INFO) left += (left.empty() ? "; still " : ", ") + finding.code;
+  std::printf("%s\n", left.c_str());
+}
+
+int inspectOne(const InspectArguments& arguments) {
+  const OpenedAsset opened = open(arguments.assets[0]);
+  const Inspected seen = inspectAsset(opened);
+  nlohmann::ordered_json json;
+  if (arguments.json) json = inspectedJson(seen);
+  else printInspected(seen);
+  if (!arguments.repair.empty()) {
+    const Written written = writeRepaired(opened, seen, arguments);
+    printMessages(written.said, true);
+    if (arguments.json) {
+      json["repairs"] = repairsJson(written.repairs);
+      json["written"] = arguments.repair;
+    } else {
+      printWritten(written, arguments.repair);
+    }
+  }
+  if (arguments.json) printJsonText(json);
+  if (!arguments.csv.empty()) {
+    InspectedFiles alone;
+    alone.files.push_back({arguments.assets[0], "", seen});
+    writeCsv(alone, arguments.csv);
+  }
+  return arguments.strict && seen.count(FLK_SEVERITY_WARNING) + seen.count(FLK_SEVERITY_ERROR) > 0 ? kFailed : kDone;
+}
+
+int inspectMany(const InspectArguments& arguments) {
+  if (!arguments.repair.empty()) throw UsageError("--repair takes one asset, not several or a folder; repair them one by one");
+  const InspectedFiles all = inspectFiles(arguments.assets, open);
+  if (arguments.json) printJsonText(filesJson(all));
+  else printTable(all);
+  if (all.files.empty()) std::fprintf(stderr, "forelock: %s: no strand file is in it\n", arguments.assets[0].c_str());
+  if (!arguments.csv.empty()) writeCsv(all, arguments.csv);
+  return all.failed() || (arguments.strict && !all.clean()) ? kFailed : kDone;
 }
 
 int runInspect(const InspectArguments& arguments) {
-  OpenedAsset opened;
-  {
-    Progress progress("opening " + arguments.asset);
-    opened = openAsset(arguments.asset, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+  if (arguments.repair.empty() && (arguments.overwrite || !arguments.repair_only.empty() || !arguments.repair_also.empty()))
+    throw UsageError("--repair-only, --repair-also and --overwrite-input need --repair OUT");
+  if (!arguments.repair.empty() && formatOfPath(arguments.repair) == FLK_FORMAT_UNKNOWN)
+    throw UsageError(arguments.repair + ": no writer for this extension, use .tfx, .hair or .ply");
+  try {  // before a long load
+    EditableStrands none;
+    none.first_vertex.push_back(0);
+    repairStrands(none, {}, {}, wantedRepairs(arguments));
+  } catch (const std::invalid_argument& wrong) {
+    throw UsageError(wrong.what());
   }
-  FlkAssetInfo info = {};
-  flkAssetGetInfo(opened.asset.get(), &info);
-  const std::vector<AssetFinding> findings = findingsOf(opened);
-  if (arguments.json) {
-    printJson(opened, info, findings);
-  } else {
-    printText(opened, info, findings);
-  }
-  bool clean = true;
-  for (const AssetFinding& finding : findings) {
-    clean = clean && finding.severity == FLK_SEVERITY_INFO;
-  }
-  return arguments.strict && !clean ? kFailed : kDone;
+  std::error_code error;
+  return arguments.assets.size() == 1 && !fs::is_directory(arguments.assets[0], error) ? inspectOne(arguments) : inspectMany(arguments);
+}
+
+std::string repairHelp() {
+  std::string by_itself, asked;
+  for (const RepairKind& kind : repairKinds()) (kind.unasked ? by_itself : asked) += std::string((kind.unasked ? by_itself : asked).empty() ? "" : ", ") + kind.code;
+  return "Write the asset mended: what loading mends, and " + by_itself + ". On request (--repair-also): " + asked;
 }
 
 }  // namespace
@@ -132,9 +153,14 @@ int runInspect(const InspectArguments& arguments) {
 void addInspectCommand(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("inspect", "Say what is in an asset, and what is wrong with it.");
   auto arguments = std::make_shared<InspectArguments>();
-  command->add_option("ASSET", arguments->asset, "A strand file, a recipe or groom:NAME")->required();
+  command->add_option("ASSET", arguments->assets, "Strand files, recipes, groom:NAME, or folders; of several a table")->required();
   command->add_flag("--json", arguments->json, "Print JSON for programs");
   command->add_flag("--strict", arguments->strict, "Exit with 1 if there is any finding of severity warning or error");
+  command->add_option("--csv", arguments->csv, "Write a line a file, for a spreadsheet")->type_name("OUT.csv");
+  command->add_option("--repair", arguments->repair, repairHelp())->type_name("OUT");
+  command->add_option("--repair-only", arguments->repair_only, "Mend these findings and what loading mends, nothing else")->delimiter(',')->allow_extra_args(false)->type_name("CODE,...");
+  command->add_option("--repair-also", arguments->repair_also, "Mend these findings as well")->delimiter(',')->allow_extra_args(false)->type_name("CODE,...");
+  command->add_flag("--overwrite-input", arguments->overwrite, "Allow OUT to be the asset's own file");
   command->footer(kExamples);
   command->callback([arguments, &exit_code] { exit_code = runInspect(*arguments); });
 }

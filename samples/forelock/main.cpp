@@ -17,6 +17,7 @@ constexpr const char* kExamples =
     "  forelock plan groom:long-wavy             the passes and bytes that it takes; needs no device\n"
     "  forelock inspect pony.tfx                 what is in a file, and what is wrong with it\n"
     "  forelock convert pony.tfx pony.hair       another format; says what is lost\n"
+    "  forelock diff old.tfx new.tfx             the same hair in another unit? and where it differs\n"
     "  forelock groom long-wavy hair.hair        write a procedural groom to a strand file\n"
     "  forelock report study                     plots, pictures and a page of what forelock-study measured\n\n"
     "Exit status: 0 done; 1 the asset or a check failed; 2 wrong usage; 3 no usable device.\n"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
   addPlanCommand(program, exit_code);
   addInspectCommand(program, exit_code);
   addConvertCommand(program, exit_code);
+  addDiffCommand(program, exit_code);
   addGroomCommand(program, exit_code);
   addReportCommand(program, exit_code);
 

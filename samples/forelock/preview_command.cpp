@@ -166,7 +166,7 @@ void printText(const PreviewArguments& arguments, const HeadlessHost& host, cons
     }
     const SceneAsset& wanted = stage.scene.assets[static_cast<size_t>(&asset - stage.assets.data())];
     if (!asset.info.has_radii && wanted.width_mm <= 0.0) {
-      std::printf("  width       %.3g mm: %s has none, so 80 um x max(1, 100,000 / strands%s); --width MM changes it\n",
+      std::printf("  width       %.3g mm: %s has none, so a share of its size by its strands%s; --width MM changes it\n",
                   asset.width_mm, asset.opened.label.c_str(), asset.follow.count > 0 ? ", follow strands too" : "");
     }
   }

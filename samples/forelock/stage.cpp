@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "image.h"
 #include "progress.h"
+#include "strand_statistics.h"
 
 #include <glm/geometric.hpp>
 
@@ -106,10 +107,7 @@ void stageLook(const SceneAsset& wanted, StagedAsset& asset) {
   if (wanted.width_mm > 0.0) {
     scale = std::min(wanted.width_mm / diameter_mm, 1e6);
   } else if (!asset.info.has_radii) {
-    // The default width is for so many strands: with follow strands there are more.
-    const double strands = static_cast<double>(asset.info.strand_count);
-    const double all = strands * (1.0 + static_cast<double>(wanted.follow.count));
-    scale *= std::max(1.0, 1e5 / all) / std::max(1.0, 1e5 / strands);
+    scale *= followWidthScale(asset.info, wanted.follow.count);
   }
   asset.material.width_scale = static_cast<float>(scale);
   asset.width_mm = diameter_mm * scale;

@@ -2,6 +2,7 @@
 #include "subject.h"
 
 #include "progress.h"
+#include "strand_statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,8 +57,7 @@ void look(SubjectAsset& asset) {
   if (wanted.width_mm > 0) {
     scale = std::min(wanted.width_mm / (2e3 * double(asset.info.max_radius)), 1e6);
   } else if (!asset.info.has_radii) {
-    const double strands = asset.info.strand_count, all = strands * (1.0 + wanted.follow.count);
-    scale *= std::max(1.0, 1e5 / all) / std::max(1.0, 1e5 / strands);
+    scale *= followWidthScale(asset.info, wanted.follow.count);
   }
   asset.material.width_scale = float(scale);
   if (!wanted.color_given && asset.info.has_colors && !wanted.ignore_colors)

@@ -128,7 +128,8 @@ FLK_API FlkResult flkAssetSaveFile(FlkAsset asset, uint32_t format, const char* 
 FLK_API FlkResult flkAssetGetInfo(FlkAsset asset, FlkAssetInfo* info);
 
 /* The strands of an asset; the arrays live as long as the asset. radii is never NULL (the default width is filled in:
- * a diameter of 80e-6 x max(1, 100,000 / strands)). Any thread. */
+ * a diameter of 1/5,000 of the longest side of the bounds x max(1, 100,000 / strands), which is 80 um for the hair of a
+ * head, 0.4 m; at most 1/1,000 of that side and 1/100 of the median strand length). Any thread. */
 FLK_API FlkResult flkAssetGetStrands(FlkAsset asset, FlkStrands* strands);
 
 /* Finding `index` in [0, finding_count); its strings live as long as the asset. Any thread. */

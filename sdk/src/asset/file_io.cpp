@@ -100,7 +100,7 @@ bool Mapping::map(int fd, uint64_t size) noexcept {
 FlkResult readFile(const char* path, uint64_t largest, bool must_copy, const Report& report, AcceptHead accept, FileBytes& file_bytes) {
   // Not blocking: opening a pipe that nobody writes to would wait for ever before it could be refused.
   Descriptor file(::open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!file) return report.fail(FLK_ERROR_IO, "FILE_NOT_OPENED", "cannot be opened: %s", Reason(errno).text);
+  if (!file) return report.fail(FLK_ERROR_IO, "FILE_NOT_OPENED", "cannot be opened: %s; check the path and its permissions", Reason(errno).text);
   struct stat status {};
   if (::fstat(file.get(), &status) != 0)
     return report.fail(FLK_ERROR_IO, "FILE_NOT_READ", "cannot be examined: %s", Reason(errno).text);

@@ -36,6 +36,12 @@ enum class FindingKind : uint32_t {
   tfx_offset_unaligned,
   trailing_bytes,
   unit_suspect,
+  root_at_tip,
+  strand_duplicate,
+  width_suspect,
+  root_uv_all_zero,
+  root_uv_constant,
+  far_from_origin,
   segment_zero_length,
   strand_micro,
   root_uv_outside_unit,
@@ -49,6 +55,13 @@ enum class FindingKind : uint32_t {
   data_values_ignored,
   tfx_text_key_unknown,
   ply_alpha_ignored,
+  strand_long,
+  width_grows,
+  inverse_mass_implied,
+  both_ends_fixed,
+  inverse_mass_all_zero,
+  root_not_pinned,
+  hair_default_thickness_zero,
   width_defaulted,
   kinds
 };
@@ -60,7 +73,7 @@ public:
   // `strand` is numbered as in the source; no_strand where the finding is about the file. Keeps the first byte told.
   void note(FindingKind kind, uint32_t strand, uint64_t byte, uint64_t times = 1) noexcept;
 
-  // A sentence of its own for this kind in place of the table's, for one that names values. At most three kinds.
+  // A sentence of its own for this kind in place of the table's, for one that names values. At most eight kinds.
   void describe(FindingKind kind, const char* format, ...) noexcept __attribute__((format(printf, 3, 4)));
 
   uint64_t count(FindingKind kind) const noexcept { return slots_[static_cast<std::size_t>(kind)].count; }
@@ -96,7 +109,7 @@ private:
   };
 
   std::array<Slot, static_cast<std::size_t>(FindingKind::kinds)> slots_;
-  std::array<Description, 3> descriptions_;
+  std::array<Description, 8> descriptions_;
   std::pmr::vector<Entry> list_;
 };
 

@@ -130,6 +130,7 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
     Cursor(bytes, table[thickness].offset).floats(arrays.radii);
     for (float& radius : arrays.radii) radius *= 0.5f;
     places.radii = {table[thickness].offset, 4, false};
+    if (default_thickness == 0) findings.note(FindingKind::hair_default_thickness_zero, no_strand, 20);
   } else if (default_thickness > 0 && std::isfinite(default_thickness)) {
     arrays.radii.assign(used_points, 0.5f * default_thickness);
     places.radii = {20, 0, false};
@@ -174,7 +175,8 @@ void write(const FlkStrands& strands, const FlkAssetInfo& info, const Report& re
   sink.u32((equal ? 0u : 1u << segments) | 1u << points | (info.has_radii ? 1u << thickness : 0u) |
            (info.has_colors ? 1u << color : 0u));
   sink.u32(equal ? info.max_vertices_per_strand - 1 : 0);
-  sink.f32(0);  // thickness: 0 is "not set", so that a default width stays a default
+  // Thickness: 0 is "not set", so that a default width stays a default. With an array it is for programs that do not read that.
+  sink.f32(info.has_radii ? 2.0f * info.max_radius : 0);
   sink.f32(0);  // transparency
   for (int i = 0; i < 3; ++i) sink.f32(0.5f);
   sink.text("Forelock", 88);

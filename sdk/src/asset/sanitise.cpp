@@ -1,5 +1,6 @@
 #include "asset/sanitise.h"
 
+#include "asset/suspicions.h"
 #include "asset/value_range.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace {
 
 constexpr float dropped = -1.0f;  // in place of a strand's length
 constexpr double micro_fraction = 1e-4;
+constexpr float unset_radius = -1.0f;  // until the default is known, which the strands that stay decide
 
 // Length of a strand, or `dropped` after noting why. `in_range`: all its coordinates are known to be.
 float measureStrand(const StrandArrays& arrays, uint32_t strand, bool in_range, const Places& places, Findings& findings) {
@@ -67,12 +69,9 @@ uint32_t measureStrands(const StrandArrays& arrays, const Places& places, std::p
   return kept;
 }
 
-void noteMicroStrands(const StrandArrays& arrays, const std::pmr::vector<float>& lengths, const Places& places,
-                      Findings& findings) {
-  float least = std::numeric_limits<float>::max(), most = 0;
-  for (const float length : lengths)
-    if (length != dropped) least = std::min(least, length), most = std::max(most, length);
-  if (least >= most * micro_fraction) return;  // the median is at most `most`
+// Gives the median length.
+double noteMicroStrands(const StrandArrays& arrays, const std::pmr::vector<float>& lengths, const Places& places,
+                        Findings& findings) {
   std::pmr::vector<float> kept(lengths.get_allocator());
   kept.reserve(lengths.size());
   std::copy_if(lengths.begin(), lengths.end(), std::back_inserter(kept), [](float length) { return length != dropped; });
@@ -82,6 +81,7 @@ void noteMicroStrands(const StrandArrays& arrays, const std::pmr::vector<float>&
   for (uint32_t strand = 0; strand < lengths.size(); ++strand)
     if (lengths[strand] != dropped && lengths[strand] < shortest)
       findings.note(FindingKind::strand_micro, strand, places.positions.byte(strand, arrays.first_vertex[strand]));
+  return *middle;
 }
 
 ValueRange rangeOf(const FloatArray& values) {
@@ -92,8 +92,8 @@ ValueRange rangeOf(const FloatArray& values) {
 
 // Replaces what no radius, UV, mass or colour may be. Only in strands that stay: findings about dropped ones would mislead.
 // `radii_in_range`: there are none to replace.
-void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, float default_radius, bool radii_in_range,
-                  const Places& places, Findings& findings) {
+void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, bool radii_in_range, const Places& places,
+                  Findings& findings) {
   for (uint32_t strand = 0; strand < lengths.size(); ++strand) {
     if (lengths[strand] == dropped) continue;
     const uint32_t begin = arrays.first_vertex[strand], end = arrays.first_vertex[strand + 1];
@@ -101,7 +101,7 @@ void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, 
       for (uint32_t vertex = begin; vertex < end; ++vertex) {
         float& radius = arrays.radii[vertex];
         if (radius >= 0 && radius <= largest_coordinate) continue;
-        radius = default_radius;
+        radius = unset_radius;
         findings.note(FindingKind::radius_invalid, strand, places.radii.byte(strand, vertex));
       }
     if (!arrays.inverse_masses.empty())
@@ -211,8 +211,7 @@ void guessUnit(const FlkAssetInfo& info, Findings& findings) {
     const bool millimetres = reach > 1000;
     findings.note(FindingKind::unit_suspect, no_strand, no_byte);
     findings.describe(FindingKind::unit_suspect,
-                      "coordinates reach %g, which suggests %s rather than metres; nothing was scaled: if so, scale by %s "
-                      "(default widths are in metres)",
+                      "coordinates reach %g, which suggests %s rather than metres; nothing was scaled: if so, scale by %s",
                       double{reach}, millimetres ? "millimetres" : "centimetres", millimetres ? "0.001" : "0.01");
   } else if (size < 1e-3f) {
     findings.note(FindingKind::unit_suspect, no_strand, no_byte);
@@ -225,8 +224,11 @@ void guessUnit(const FlkAssetInfo& info, Findings& findings) {
 
 }  // namespace
 
-float defaultRadius(uint32_t strands) noexcept {
-  return static_cast<float>(0.5 * 80e-6 * std::max(1.0, 100'000.0 / std::max(strands, 1u)));
+float defaultRadius(const FlkAssetInfo& info, double median_length) noexcept {
+  double side = 0;
+  for (int axis = 0; axis < 3; ++axis) side = std::max(side, double{info.max_bounds[axis]} - info.min_bounds[axis]);
+  const double wanted = side / 5000 * std::max(1.0, 100'000.0 / info.strand_count);
+  return static_cast<float>(0.5 * std::min({wanted, side / 1000, median_length / 100}));
 }
 
 FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_resource* memory, Findings& findings,
@@ -246,34 +248,37 @@ FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_
                        findings.count(FindingKind::position_not_finite),
                        findings.count(FindingKind::position_out_of_range), findings.count(FindingKind::strand_zero_length));
 
-  const float default_radius = defaultRadius(kept);
-  noteMicroStrands(arrays, lengths, places, findings);
+  const double median_length = noteMicroStrands(arrays, lengths, places, findings);
   ValueRange radii = rangeOf(arrays.radii);
   const bool radii_in_range = arrays.radii.empty() || radii.within(0, largest_coordinate);
-  repairValues(arrays, lengths, default_radius, radii_in_range, places, findings);
+  repairValues(arrays, lengths, radii_in_range, places, findings);
   if (kept != source_strands) {
     removeDropped(arrays, lengths);
     positions = rangeOf(arrays.positions);
   }
-  if (kept != source_strands || !radii_in_range) radii = rangeOf(arrays.radii);
 
   info.has_radii = !arrays.radii.empty();
-  info.min_radius = info.has_radii ? firstOf(arrays.radii, 0, 1, radii.least()) : default_radius;
-  info.max_radius = info.has_radii ? radii.greatest() == 0 ? arrays.radii.back() : radii.greatest() : default_radius;
   info.has_root_uvs = !arrays.root_uvs.empty();
   info.has_inverse_masses = !arrays.inverse_masses.empty();
   info.has_colors = !arrays.colors.empty();
+  measure(arrays, lengths, positions, info);
+  const float default_radius = defaultRadius(info, median_length);
   if (!info.has_radii) {
     arrays.radii.assign(arrays.vertexCount(), default_radius);
     findings.note(FindingKind::width_defaulted, no_strand, no_byte);
     findings.describe(FindingKind::width_defaulted,
-                      "no widths in the source: a diameter of %.4g um is used (80 um x 100,000 / %" PRIu32
-                      " strands, at least 80 um, if the unit is the metre); give radii or set a width on the hair to change it",
-                      double{default_radius} * 2e6, kept);
+                      "no widths in the source: a diameter of %.4g (unit of the positions) is used, chosen by the size of the hair, its %" PRIu32
+                      " strands and their median length; give radii or set a width on the hair to change it",
+                      double{default_radius} * 2, kept);
+  } else if (findings.count(FindingKind::radius_invalid) != 0) {
+    std::replace(arrays.radii.begin(), arrays.radii.end(), unset_radius, default_radius);
   }
-  measure(arrays, lengths, positions, info);
+  if (info.has_radii && (kept != source_strands || !radii_in_range)) radii = rangeOf(arrays.radii);
+  info.min_radius = info.has_radii ? firstOf(arrays.radii, 0, 1, radii.least()) : default_radius;
+  info.max_radius = info.has_radii ? radii.greatest() == 0 ? arrays.radii.back() : radii.greatest() : default_radius;
   if (info.max_radius == 0) findings.note(FindingKind::radius_all_zero, no_strand, places.radii.offset, info.vertex_count);
   guessUnit(info, findings);
+  noteSuspicions(arrays, places, lengths, median_length, info, memory, findings);
   return FLK_SUCCESS;
 }
 

@@ -43,6 +43,12 @@ constexpr Signature binary_signatures[] = {
     {"Kaydara FBX Binary"sv, unknown, "FBX_FILE",
      "an FBX file, which is not read: export the curves as .tfx or .hair from the program that made it"},
     {"BLENDER"sv, unknown, "BLEND_FILE", "a Blender scene, which is not read: export its hair as .tfx or .hair from Blender"},
+    {"BINARY_HAIR"sv, unknown, "MITSUBA_FILE",
+     "hair of the renderer Mitsuba, which is not read: export it as .tfx or .hair from the program that made it"},
+    {"\x93NUMPY"sv, unknown, "NUMPY_FILE", "a NumPy array, which is not read: write its strands as .hair or PLY"},
+    {"\x89PNG"sv, unknown, "IMAGE_FILE", "a picture (PNG), not a strand file: check what was given"},
+    {"\xff\xd8\xff"sv, unknown, "IMAGE_FILE", "a picture (JPEG), not a strand file: check what was given"},
+    {"\x76\x2f\x31\x01"sv, unknown, "IMAGE_FILE", "a picture (OpenEXR), not a strand file: check what was given"},
     {"PK\x03\x04"sv, unknown, "ARCHIVE_FILE", "a ZIP archive (or USDZ): unpack it and load the strand file inside"},
     {"\x1f\x8b"sv, unknown, "ARCHIVE_FILE", "compressed with gzip: unpack it first"},
 };
@@ -57,6 +63,10 @@ constexpr Signature text_signatures[] = {
     {"<"sv, unknown, "HTML_PAGE", "a web page or XML document, not the file itself: download it again, through its raw link"},
     {"#usda"sv, unknown, "USD_FILE",
      "a USD text layer, which is not read: export the curves as .tfx or .hair from the program that made it"},
+    {"; fbx"sv, unknown, "FBX_FILE",
+     "an FBX file as text, which is not read: export the curves as .tfx or .hair from the program that made it"},
+    {"//maya ascii"sv, unknown, "MAYA_FILE", "a Maya scene as text, which is not read: export its curves as .tfx or .hair from Maya"},
+    {"solid "sv, unknown, "STL_FILE", "an STL mesh as text, which holds no strands: give the hair, as .tfx, .hair or PLY"},
 };
 
 char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -127,8 +137,8 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
       return report.fail(unknown, "JSON_FILE", "it is a JSON document, not a strand file: check what was given");
     }
     if (looksLikeObj(text))
-      return report.fail(unknown, "OBJ_FILE", "it is a Wavefront OBJ text file, which is not read: convert its strands to "
-                                              ".hair first");
+      return report.fail(unknown, "OBJ_FILE", "it is a Wavefront OBJ text file, a mesh or curves, which is not read: give the "
+                                              "hair, as .tfx, .hair or PLY from the program that made it");
   }
 
   Cursor header(head);

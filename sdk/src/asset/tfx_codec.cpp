@@ -151,6 +151,8 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
     const uint32_t follow_strands = header.u32();
     if (follow_strands) findings.note(FindingKind::tfx_follow_strands_ignored, no_strand, 12, follow_strands);
     const bool both_ends = header.u32() != 0;
+    findings.note(FindingKind::inverse_mass_implied, no_strand, no_byte, strands);
+    if (both_ends) findings.note(FindingKind::both_ends_fixed, no_strand, 16, strands);
     for (uint64_t vertex = 0; vertex < vertices; ++vertex)
       arrays.inverse_masses[vertex] = impliedInverseMass(vertex % vertices_per_strand, vertices_per_strand, both_ends);
   } else {

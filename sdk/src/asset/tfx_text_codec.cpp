@@ -92,6 +92,9 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
   std::string_view version_word = text.word();
   float version = 0;
   if (!TextCursor::parse(version_word, version)) return notNumber(report, text, "the version", version_word);
+  if (version == 3)
+    return report.fail(FLK_ERROR_FORMAT_UNKNOWN, "TFX_PROJECT", "it is a text of TressFX 3 (byte %" PRIu64 "), a project or settings and no strands: "
+                       "give the .tfx files that the project names", text.word_at());
   if (!(version >= 1 && version < 3))
     return report.fail(FLK_ERROR_FORMAT_UNKNOWN, "TFX_TEXT_VERSION", "it is a text file of TressFX %g (byte %" PRIu64
                        "), but only 1 and 2 have been text: the file is damaged or newer, export it again as TressFX 4",
@@ -165,6 +168,8 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
                       double{header.scale}, double{header.rotation[0]}, double{header.rotation[1]}, double{header.rotation[2]},
                       double{header.translation[0]}, double{header.translation[1]}, double{header.translation[2]});
   }
+  findings.note(FindingKind::inverse_mass_implied, no_strand, no_byte, arrays.strandCount());
+  if (header.both_ends != 0) findings.note(FindingKind::both_ends_fixed, no_strand, 0, arrays.strandCount());
   if (header.follow_strands > 0)
     findings.note(FindingKind::tfx_follow_strands_ignored, no_strand, 0, static_cast<uint64_t>(header.follow_strands));
   return FLK_SUCCESS;

@@ -231,10 +231,10 @@ inline Bytes smallTfx3(bool with_uvs = true) {
   return file;
 }
 
-// Three strands of 2, 4 and 3 points with the arrays of `flags`.
+// Three strands of 2, 4 and 3 points with the arrays of `flags`; the default thickness is the greatest of the array.
 inline Bytes smallHair(unsigned flags = 7) {
   Bytes file;
-  file.text("HAIR").u32(3).u32(9).u32(flags).u32(2).f32s({0, 0, 1, 1, 1}).text("by hand").zeros(81);
+  file.text("HAIR").u32(3).u32(9).u32(flags).u32(2).f32s({flags & 4 ? 0.009f : 0, 0, 1, 1, 1}).text("by hand").zeros(81);
   if (flags & 1) file.u16(1).u16(3).u16(2);
   if (flags & 2)
     for (int point = 0; point < 9; ++point)

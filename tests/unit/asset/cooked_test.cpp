@@ -22,7 +22,7 @@ Bytes cook(FlkAsset asset) {
 // A file with something wrong in each of several ways: a NaN strand, one of no length, widths, colours and UVs that must be replaced.
 Bytes defectiveHair() {
   Bytes file;
-  file.text("HAIR").u32(5).u32(10).u32(55).u32(0).f32s({0, 0, 1, 1, 1}).text("by hand").zeros(81);
+  file.text("HAIR").u32(5).u32(10).u32(55).u32(0).f32s({0.001f, 0, 1, 1, 1}).text("by hand").zeros(81);
   for (int strand = 0; strand < 5; ++strand) file.u16(1);
   for (int point = 0; point < 10; ++point) file.f32s({point / 2 == 3 ? 0.5f : 0.25f * static_cast<float>(point), 30, -0.0f});
   file.setU32(128 + 10 + 12, 0x7fc00000u);

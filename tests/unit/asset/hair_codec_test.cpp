@@ -104,6 +104,19 @@ TEST(HairReader, DefaultThickness) {
   }
 }
 
+TEST(HairReader, DefaultThicknessOfZeroBesideAnArray) {
+  const auto loaded = load(smallHair().setF32(20, 0));
+  ASSERT_EQ(loaded->result, FLK_SUCCESS);
+  EXPECT_EQ(loaded->codes(), "HAIR_DEFAULT_THICKNESS_ZERO");
+  EXPECT_EQ(loaded->finding("HAIR_DEFAULT_THICKNESS_ZERO").byte_offset, 20u);
+  EXPECT_FLOAT_EQ(loaded->strands().radii[8], 0.0045f);
+  FlkResult result;
+  const std::vector<unsigned char> written = saved(loaded->asset.get(), FLK_FORMAT_HAIR, result);
+  float thickness = 0;
+  std::memcpy(&thickness, written.data() + 20, 4);
+  EXPECT_FLOAT_EQ(thickness, 0.009f) << "our own files do not have it";
+}
+
 TEST(HairReader, HeaderCutAndMagic) {
   for (const size_t length : {4u, 127u})
     expectRefusal(smallHair().cut(length), FLK_ERROR_MALFORMED, "HAIR_HEADER_TRUNCATED", "byte " + std::to_string(length));
@@ -236,5 +249,6 @@ TEST(HairReader, NumbersThatAreNone) {
   EXPECT_EQ(radius.strands_listed, 1u);
   EXPECT_EQ(radius.strands[0], 2u);
   EXPECT_EQ(radius.byte_offset, thicknesses + 28);
-  EXPECT_FLOAT_EQ(loaded->strands().radii[3], 0.5f * 80e-6f * 50000);
+  const FlkAssetInfo kept = loaded->info();
+  EXPECT_FLOAT_EQ(loaded->strands().radii[3], 0.5f * (kept.max_bounds[2] - kept.min_bounds[2]) / 1000) << "the default of what is left";
 }

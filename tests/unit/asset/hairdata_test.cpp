@@ -48,9 +48,11 @@ TEST(Hairdata, Mohawk) {
   EXPECT_EQ(info.has_inverse_masses, 1u);
   EXPECT_EQ(info.has_radii, 0u);
   EXPECT_LT(info.min_length, 1e-5f);
-  EXPECT_GT(loaded->finding("STRAND_MICRO").count, 0u) << loaded->codes();
-  EXPECT_EQ(loaded->finding("WIDTH_DEFAULTED").count, 1u);
-  EXPECT_EQ(loaded->finding("UNIT_SUSPECT").count, 0u);
+  EXPECT_EQ(loaded->codes(), "STRAND_MICRO WIDTH_DEFAULTED") << "nothing else, above all no unit: it is in metres";
+  EXPECT_EQ(loaded->finding("STRAND_MICRO").count, 1u);
+  EXPECT_EQ(loaded->finding("STRAND_MICRO").strands[0], 435u);
+  EXPECT_FLOAT_EQ(info.max_radius, info.min_radius);
+  EXPECT_NEAR(info.max_radius, 0.0004, 0.00001) << "0.8 mm wide, 1/100 of the median strand";
   // The first position is bit for bit that of the file (bytes 160 to 171).
   const float root[3] = {loaded->strands().positions[0], loaded->strands().positions[1], loaded->strands().positions[2]};
   const unsigned char expected[12] = {0x7d, 0xf1, 0x61, 0xbd, 0xf1, 0xb4, 0xe4, 0x3e, 0x18, 0xc5, 0x89, 0xbd};
@@ -70,8 +72,8 @@ TEST(Hairdata, Fur) {
   EXPECT_EQ(info.strand_count, 50000u) << loaded->codes();
   EXPECT_EQ(info.vertex_count, 200000u);
   EXPECT_EQ(info.has_radii, 1u) << "the default thickness of 0 must not hide the thickness array";
-  EXPECT_EQ(loaded->finding("WIDTH_DEFAULTED").count, 0u);
-  EXPECT_EQ(loaded->finding("RADIUS_INVALID").count, 0u);
+  EXPECT_EQ(loaded->codes(), "HAIR_DEFAULT_THICKNESS_ZERO");
+  EXPECT_EQ(loaded->finding("HAIR_DEFAULT_THICKNESS_ZERO").byte_offset, 20u);
 }
 
 TEST(Hairdata, FurLoadsWithin50Milliseconds) {
@@ -114,11 +116,46 @@ TEST(Hairdata, PonytailOfTressFx3) {
     EXPECT_EQ(info.max_vertices_per_strand, 16u);
     EXPECT_EQ(info.has_inverse_masses, 1u);
     EXPECT_EQ(loaded->finding("TRAILING_BYTES").count, 0u) << loaded->codes();
-    EXPECT_EQ(loaded->finding("UNIT_SUSPECT").count, 1u) << "it is in centimetres";
+    EXPECT_EQ(loaded->codes(), part.both_ends ? "UNIT_SUSPECT INVERSE_MASS_IMPLIED BOTH_ENDS_FIXED WIDTH_DEFAULTED"
+                                              : "UNIT_SUSPECT INVERSE_MASS_IMPLIED WIDTH_DEFAULTED");
+    EXPECT_NE(std::string(loaded->finding("UNIT_SUSPECT").text).find("centimetres"), std::string::npos);
+    EXPECT_EQ(loaded->finding("INVERSE_MASS_IMPLIED").count, part.strands);
+    EXPECT_LT(2 * info.max_radius, 0.111f) << "1.1 mm in centimetres at most: no ribbons";
     const float* masses = loaded->strands().inverse_masses;
     EXPECT_EQ(masses[1], 0.0f);
     EXPECT_EQ(masses[2], 1.0f);
     EXPECT_EQ(masses[14], part.both_ends ? 0.0f : 1.0f);
+  }
+}
+
+// No strands that are right are called wrong, and all of them reversed are found by what they hold (front_top by its pins alone).
+TEST(Hairdata, RootsAndTips) {
+  for (const char* name : {"Ratboy_mohawk.tfx", "fur.hair", "ponytail/back.tfx", "ponytail/side.tfx", "ponytail/tail.tfx", "ponytail/front_top.tfx"}) {
+    const std::string path = dataPath(name);
+    NEEDS(path);
+    const auto loaded = loadFile(path);
+    ASSERT_EQ(loaded->result, FLK_SUCCESS);
+    EXPECT_EQ(loaded->finding("ROOT_AT_TIP").count, 0u) << name;
+    const FlkAssetInfo info = loaded->info();
+    const FlkStrands held = loaded->strands();
+    FlkStrands turned = held;
+    std::vector<float> positions(size_t{held.vertex_count} * 3), radii(held.vertex_count), masses(held.vertex_count);
+    for (uint32_t strand = 0; strand < held.strand_count; ++strand)
+      for (uint32_t begin = held.first_vertex[strand], end = held.first_vertex[strand + 1], v = begin; v < end; ++v) {
+        const uint32_t from = begin + end - 1 - v;
+        std::memcpy(&positions[size_t{v} * 3], held.positions + size_t{from} * 3, 12);
+        radii[v] = held.radii[from];
+        if (held.inverse_masses) masses[v] = held.inverse_masses[from];
+      }
+    turned.positions = positions.data();
+    turned.radii = info.has_radii ? radii.data() : nullptr;
+    turned.inverse_masses = held.inverse_masses ? masses.data() : nullptr;
+    Loaded again;
+    const FlkAssetOptions options = optionsFor(again.caught, name);
+    FlkAsset asset = nullptr;
+    ASSERT_EQ(flkAssetCreate(&turned, &options, &asset), FLK_SUCCESS);
+    again.asset.reset(asset);
+    EXPECT_EQ(again.finding("ROOT_AT_TIP").count, held.strand_count) << name << " " << again.codes();
   }
 }
 

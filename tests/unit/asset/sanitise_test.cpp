@@ -1,5 +1,5 @@
 // Degenerate input to flkAssetCreate: dropped strand by strand, the rest unchanged.
-#include "asset_kit.h"
+#include "asset_arrays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,48 +11,6 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-
-struct Arrays {
-  std::vector<uint32_t> first_vertex{0};
-  std::vector<float> positions, radii, root_uvs, inverse_masses, colors;
-
-  Arrays& strand(std::initializer_list<float> coordinates) {
-    positions.insert(positions.end(), coordinates.begin(), coordinates.end());
-    first_vertex.push_back(static_cast<uint32_t>(positions.size() / 3));
-    return *this;
-  }
-  Arrays& goodStrand(float x = 0) { return strand({x, 0, 0, x, 0.1f, 0, x, 0.2f, 0}); }
-  FlkStrands view() const {
-    FlkStrands strands{};
-    strands.type = FLK_TYPE_STRANDS;
-    strands.strand_count = static_cast<uint32_t>(first_vertex.size() - 1);
-    strands.vertex_count = first_vertex.back();
-    strands.first_vertex = first_vertex.data();
-    strands.positions = positions.data();
-    strands.radii = radii.empty() ? nullptr : radii.data();
-    strands.root_uvs = root_uvs.empty() ? nullptr : root_uvs.data();
-    strands.inverse_masses = inverse_masses.empty() ? nullptr : inverse_masses.data();
-    strands.colors = colors.empty() ? nullptr : colors.data();
-    return strands;
-  }
-};
-
-std::unique_ptr<Loaded> create(const Arrays& arrays) {
-  auto made = std::make_unique<Loaded>();
-  const FlkAssetOptions options = optionsFor(made->caught, "made");
-  const FlkStrands strands = arrays.view();
-  FlkAsset asset = nullptr;
-  made->result = flkAssetCreate(&strands, &options, &asset);
-  made->asset.reset(asset);
-  if (made->result == FLK_SUCCESS) {
-    if (const char* broken = brokenPromise(asset)) ADD_FAILURE() << "broken promise: " << broken;
-    if (const char* broken = brokenRoundTrip(asset)) ADD_FAILURE() << "broken round trip: " << broken;
-  } else {
-    EXPECT_EQ(asset, nullptr);
-    EXPECT_NE(made->caught.text().find("made: "), std::string::npos);
-  }
-  return made;
-}
 
 }  // namespace
 
@@ -146,7 +104,7 @@ TEST(Sanitise, NothingLeft) {
 TEST(Sanitise, ReplacesWhatIsNoWidthUvOrMass) {
   Arrays arrays;
   arrays.goodStrand().goodStrand(1);
-  arrays.radii = {-1, 0.5f, not_a_number, infinity, 2e6f, 0.25f};
+  arrays.radii = {-1, 0.005f, not_a_number, infinity, 2e6f, 0.0025f};
   arrays.root_uvs = {not_a_number, 0.5f, 0.25f, -infinity};
   arrays.inverse_masses = {not_a_number, -1, 1, infinity, 0, 1};
   const auto made = create(arrays);
@@ -156,8 +114,8 @@ TEST(Sanitise, ReplacesWhatIsNoWidthUvOrMass) {
   EXPECT_EQ(made->finding("ROOT_UV_NOT_FINITE").count, 2u);
   EXPECT_EQ(made->finding("INVERSE_MASS_INVALID").count, 3u);
   const FlkStrands strands = made->strands();
-  EXPECT_FLOAT_EQ(strands.radii[0], 2.0f) << "half of 80 um x 100,000 / 2";
-  EXPECT_EQ(strands.radii[1], 0.5f);
+  EXPECT_FLOAT_EQ(strands.radii[0], 0.5f * 1.0f / 1000) << "the longest side is 1";
+  EXPECT_EQ(strands.radii[1], 0.005f);
   EXPECT_EQ(strands.root_uvs[0], 0.0f);
   EXPECT_EQ(strands.root_uvs[1], 0.5f);
   EXPECT_EQ(strands.root_uvs[3], 0.0f);
@@ -199,17 +157,27 @@ TEST(Sanitise, NotesWithoutChanging) {
     EXPECT_EQ(message.id.rfind("WRITE_", 0), 0u) << "infos are listed, not told: " << message.id;
 }
 
+// The rule of docs/findings.md: a share of the longest side by the count of strands, and two bounds.
 TEST(Sanitise, DefaultWidthSaysHowToChangeIt) {
-  Arrays arrays;
   const auto one = create(Arrays().goodStrand());
-  EXPECT_FLOAT_EQ(one->strands().radii[0], 4.0f);
+  EXPECT_FLOAT_EQ(one->strands().radii[0], 0.5f * 0.2f / 1000) << "at most 1/1,000 of the side";
   const FlkFinding finding = one->finding("WIDTH_DEFAULTED");
   EXPECT_EQ(finding.severity, uint32_t{FLK_SEVERITY_INFO});
-  EXPECT_NE(std::string(finding.text).find("8e+06 um"), std::string::npos) << finding.text;
+  EXPECT_NE(std::string(finding.text).find("a diameter of 0.0002 "), std::string::npos) << finding.text;
   EXPECT_NE(std::string(finding.text).find("change it"), std::string::npos) << finding.text;
-  for (int i = 0; i < 200'000; ++i) arrays.strand({0, 0, 0, 0, 0.1f, 0});
-  const auto many = create(arrays);
-  EXPECT_FLOAT_EQ(many->strands().radii[0], 40e-6f);
+  const auto comb = [](float unit, int strands, float length) {
+    Arrays arrays;
+    for (int i = 0; i < strands; ++i) {
+      const float x = unit * 0.4f * static_cast<float>(i) / static_cast<float>(strands - 1);
+      arrays.strand({x, 0, 0, x, unit * length, 0});
+    }
+    return create(arrays);
+  };
+  EXPECT_FLOAT_EQ(comb(1, 200'000, 0.1f)->strands().radii[0], 40e-6f) << "80 um for the hair of a head";
+  EXPECT_FLOAT_EQ(comb(1, 50'000, 0.1f)->strands().radii[0], 80e-6f) << "twice as wide for half as many";
+  EXPECT_FLOAT_EQ(comb(100, 50'000, 0.1f)->strands().radii[0], 80e-4f) << "the same in centimetres";
+  EXPECT_FLOAT_EQ(comb(1, 1'000, 0.1f)->strands().radii[0], 200e-6f) << "1/1,000 of the side";
+  EXPECT_FLOAT_EQ(comb(1, 1'000, 0.01f)->strands().radii[0], 50e-6f) << "1/100 of a strand";
 }
 
 TEST(Sanitise, WidthsOfZeroAreNoted) {

@@ -32,7 +32,7 @@ TEST(TfxReader, ReadsEveryField) {
   EXPECT_EQ(strands.inverse_masses[6], 1.0f);
   EXPECT_EQ(strands.root_uvs[2], 0.25f);
   EXPECT_EQ(strands.root_uvs[3], 0.5f);
-  EXPECT_FLOAT_EQ(strands.radii[0], 0.5f * 80e-6f * 100000.0f / 3);
+  EXPECT_FLOAT_EQ(strands.radii[0], 0.5f * 0.5f / 1000) << "the longest side is 0.5, and a strand is longer than a tenth of it";
   EXPECT_EQ(loaded->codes(), "WIDTH_DEFAULTED");
 }
 
@@ -185,7 +185,7 @@ TEST(TfxReader, NumbersThatAreNone) {
   file.setF32(352 + 16, infinity);                   // strand 2, u
   const auto loaded = load(file);
   ASSERT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
-  EXPECT_EQ(loaded->codes(), "POSITION_NOT_FINITE ROOT_UV_NOT_FINITE INVERSE_MASS_INVALID WIDTH_DEFAULTED");
+  EXPECT_EQ(loaded->codes(), "POSITION_NOT_FINITE ROOT_UV_NOT_FINITE INVERSE_MASS_INVALID BOTH_ENDS_FIXED WIDTH_DEFAULTED");
   const FlkFinding dropped = loaded->finding("POSITION_NOT_FINITE");
   EXPECT_EQ(dropped.count, 1u);
   EXPECT_EQ(dropped.repaired, 1u);
@@ -215,7 +215,7 @@ TEST(Tfx3Reader, ReadsEveryField) {
   EXPECT_EQ(info.vertex_count, 12u);
   EXPECT_EQ(info.has_radii, 0u);
   EXPECT_EQ(info.has_inverse_masses, 1u) << "implied by the format";
-  EXPECT_EQ(loaded->codes(), "WIDTH_DEFAULTED");
+  EXPECT_EQ(loaded->codes(), "INVERSE_MASS_IMPLIED WIDTH_DEFAULTED");
   // Version 4 of the same strands gives the same asset, so that saving gives the same bytes.
   FlkResult result;
   EXPECT_EQ(saved(loaded->asset.get(), FLK_FORMAT_TFX, result), smallTfx().bytes);
@@ -250,7 +250,7 @@ TEST(Tfx3Reader, OptionalBlocks) {
   EXPECT_EQ(loaded->strands().radii[3], 0.25f);
   EXPECT_EQ(loaded->strands().radii[4], 0.125f);
   EXPECT_EQ(loaded->strands().root_uvs[2], 0.25f);
-  EXPECT_EQ(loaded->codes(), "TFX_FOLLOW_STRANDS_IGNORED TFX_VERTEX_UV_IGNORED TFX_VERTEX_COLOR_IGNORED");
+  EXPECT_EQ(loaded->codes(), "TFX_FOLLOW_STRANDS_IGNORED TFX_VERTEX_UV_IGNORED TFX_VERTEX_COLOR_IGNORED INVERSE_MASS_IMPLIED");
   EXPECT_EQ(loaded->finding("TFX_FOLLOW_STRANDS_IGNORED").count, 4u);
   EXPECT_EQ(loaded->finding("TFX_FOLLOW_STRANDS_IGNORED").byte_offset, 12u);
   for (const auto& [field, bytes] : fields) {
@@ -284,7 +284,7 @@ TEST(Tfx3Reader, HeaderAndBodyCut) {
 TEST(Tfx3Reader, ReservedWordsAndTrailingBytes) {
   const auto loaded = load(smallTfx3().zeros(5).setU32(140, 7).setU32(168, 7).setU32(292, 7));
   ASSERT_EQ(loaded->result, FLK_SUCCESS);
-  EXPECT_EQ(loaded->codes(), "TRAILING_BYTES TFX_RESERVED_SET WIDTH_DEFAULTED");
+  EXPECT_EQ(loaded->codes(), "TRAILING_BYTES TFX_RESERVED_SET INVERSE_MASS_IMPLIED WIDTH_DEFAULTED");
   EXPECT_EQ(loaded->finding("TRAILING_BYTES").byte_offset, 464u);
   EXPECT_EQ(loaded->finding("TFX_RESERVED_SET").byte_offset, 140u);
   EXPECT_EQ(loaded->finding("TFX_RESERVED_SET").count, 3u);
@@ -296,7 +296,7 @@ TEST(Tfx3Reader, NumbersThatAreNone) {
   file.setF32(440 + 16, infinity);                   // strand 2, u
   const auto loaded = load(file);
   ASSERT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
-  EXPECT_EQ(loaded->codes(), "POSITION_NOT_FINITE ROOT_UV_NOT_FINITE WIDTH_DEFAULTED");
+  EXPECT_EQ(loaded->codes(), "POSITION_NOT_FINITE ROOT_UV_NOT_FINITE INVERSE_MASS_IMPLIED WIDTH_DEFAULTED");
   EXPECT_EQ(loaded->finding("POSITION_NOT_FINITE").byte_offset, 296u + 48 + 24);
   EXPECT_EQ(loaded->finding("ROOT_UV_NOT_FINITE").byte_offset, 456u);
   EXPECT_EQ(loaded->strands().positions[3 * 4], 0.5f) << "strand 2 of the file has moved up unchanged";

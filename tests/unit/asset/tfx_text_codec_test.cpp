@@ -63,10 +63,17 @@ TEST(TfxText, NumbersDoNotDependOnTheLocale) {
   std::setlocale(LC_ALL, before.c_str());
 }
 
+TEST(TfxText, ProjectsOfTressFx3AreNoStrands) {
+  const auto project = loadText("version 3.0\n\nproject_name Pony\nside.tfx 4 0.4 5.0 side.tfxsim side\n");
+  EXPECT_EQ(project->result, FLK_ERROR_FORMAT_UNKNOWN);
+  EXPECT_EQ(project->caught.error(), "TFX_PROJECT");
+  EXPECT_EQ(loadText("version 4.0\n")->caught.error(), "TFX_TEXT_VERSION");
+}
+
 TEST(TfxText, SaysWhatItDoesNotUse) {
   const auto scaled = loadText(replaced(replaced(smallTfxText(), "scale 1.0", "scale 0.5\nwind 3 4"), "PerGuideHair 0", "PerGuideHair 4"));
   ASSERT_EQ(scaled->result, FLK_SUCCESS) << scaled->caught.text();
-  EXPECT_EQ(scaled->codes(), "TFX_TEXT_TRANSFORM_IGNORED TFX_FOLLOW_STRANDS_IGNORED TFX_TEXT_KEY_UNKNOWN WIDTH_DEFAULTED");
+  EXPECT_EQ(scaled->codes(), "TFX_TEXT_TRANSFORM_IGNORED TFX_FOLLOW_STRANDS_IGNORED TFX_TEXT_KEY_UNKNOWN INVERSE_MASS_IMPLIED BOTH_ENDS_FIXED INVERSE_MASS_ALL_ZERO WIDTH_DEFAULTED");
   EXPECT_NE(std::string(scaled->finding("TFX_TEXT_TRANSFORM_IGNORED").text).find("a scale of 0.5"), std::string::npos);
   const auto more = loadText(replaced(smallTfxText(), "numStrands 2", "numStrands 1"));
   ASSERT_EQ(more->result, FLK_SUCCESS);

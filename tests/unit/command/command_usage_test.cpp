@@ -23,7 +23,7 @@ void expectComplaint(const CommandRun& run, int status, const std::string& part)
 }  // namespace
 
 TEST(CommandUsage, HelpOnEveryLevelShowsExamples) {
-  for (const char* level : {"", "preview ", "plan ", "inspect ", "convert ", "groom ", "report "}) {
+  for (const char* level : {"", "preview ", "plan ", "inspect ", "convert ", "diff ", "groom ", "report "}) {
     const CommandRun run = runCommand(std::string(level) + "--help");
     EXPECT_EQ(run.status, 0) << level;
     EXPECT_NE(run.out.find("Examples:"), std::string::npos) << level;
@@ -53,6 +53,13 @@ TEST(CommandUsage, WrongUsageIsTwo) {
   expectComplaint(runCommand("convert x.tfx y.ply --scale -1"), 2, "--scale");
   expectComplaint(runCommand("convert x.tfx y.ply --resample 1"), 2, "--resample");
   expectComplaint(runCommand("convert x.tfx y.obj"), 2, "no writer for this extension");
+  expectComplaint(runCommand("diff x.tfx"), 2, "B is required");
+  expectComplaint(runCommand("diff x.tfx y.tfx --tolerance 0"), 2, "--tolerance");
+  expectComplaint(runCommand("inspect"), 2, "ASSET is required");
+  expectComplaint(runCommand("inspect x.tfx --repair-only ROOT_AT_TIP"), 2, "need --repair OUT");
+  expectComplaint(runCommand("inspect x.tfx --repair y.tfx --repair-also UGLY"), 2, "UGLY is nothing that can be repaired; there are STRAND_MICRO");
+  expectComplaint(runCommand("inspect x.tfx --repair y.obj"), 2, "no writer for this extension");
+  expectComplaint(runCommand("inspect x.tfx y.tfx --repair z.tfx"), 2, "--repair takes one asset");
   expectComplaint(runCommand("preview x.tfx"), 2, "--out");
   expectComplaint(runCommand("report"), 2, "DIR");
   expectComplaint(runCommand("report study --error speed"), 2, "rmse_forward");
@@ -61,7 +68,8 @@ TEST(CommandUsage, WrongUsageIsTwo) {
 }
 
 TEST(CommandUsage, WhatIsWrongWithAnAssetIsOne) {
-  expectComplaint(runCommand("plan nowhere.tfx"), 1, "nowhere.tfx: ");
+  expectComplaint(runCommand("plan nowhere.tfx"), 1, "nowhere.tfx: cannot be opened: No such file or directory; check the path");
+  expectComplaint(runCommand("inspect long-wavy"), 1, "there is a groom of this name: write groom:long-wavy");
   expectComplaint(runCommand("report nowhere"), 1, "nowhere: no such folder");
   expectComplaint(runCommand("plan groom:nowhere"), 1, "groom:nowhere: no such groom");
   expectComplaint(runCommand("plan --scene nowhere.json"), 1, "nowhere.json: cannot be read");

@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "progress.h"
 #include "strand_edit.h"
+#include "strand_formats.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -27,22 +28,12 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  forelock convert pony.tfx pony.hair\n"
     "  forelock convert pony.tfx pony.ply               keeps everything; any viewer of PLY files shows its lines\n"
+    "  forelock convert pony.tfx pony.glb               glTF lines, which every viewer and Blender open; keeps everything\n"
     "  forelock convert groom:long-wavy hair.tfx\n"
     "  forelock convert cm.hair game.tfx --scale 0.01 --axes x,z,-y --resample 16\n"
     "  forelock convert --strict pony.hair pony.tfx     fail, and write nothing, if anything is lost\n";
 
 bool saysDropped(const AssetMessage& message) { return message.id.rfind("WRITE_DROPS_", 0) == 0; }
-
-// Asks the library what it would leave out, without writing a file.
-std::vector<AssetMessage> rehearse(const OpenedAsset& opened, uint32_t format) {
-  const size_t before = opened.messages->size();
-  size_t size = 0;
-  if (flkAssetSaveMemory(opened.asset.get(), format, nullptr, &size) == FLK_SUCCESS) {
-    std::vector<unsigned char> bytes(size);
-    flkAssetSaveMemory(opened.asset.get(), format, bytes.data(), &size);
-  }
-  return {opened.messages->begin() + static_cast<std::ptrdiff_t>(before), opened.messages->end()};
-}
 
 // Says what it did, a line each, in the order in which it does it.
 void edit(OpenedAsset& opened, const ConvertArguments& arguments) {
@@ -65,6 +56,10 @@ void edit(OpenedAsset& opened, const ConvertArguments& arguments) {
   if (arguments.min_length > 0) {
     const uint32_t removed = removeShortStrands(strands, arguments.min_length);
     std::printf("removed %s strands shorter than %g\n", groupedDigits(removed).c_str(), arguments.min_length);
+    if (removed > 0 && !opened.groups.empty()) {
+      opened.groups.clear();
+      if (opened.group_names.size() > 1) std::printf("the groups of strands are left out with them\n");
+    }
     if (strands.strands() == 0) throw AssetError(FLK_ERROR_EMPTY_ASSET, opened.label + ": no strand is as long as --min-length asks for");
   }
   if (arguments.resample != 0) {
@@ -82,9 +77,8 @@ void edit(OpenedAsset& opened, const ConvertArguments& arguments) {
 }
 
 int runConvert(const ConvertArguments& arguments) {
-  const uint32_t format = formatOfPath(arguments.out);
-  if (format == FLK_FORMAT_UNKNOWN) {
-    throw UsageError(arguments.out + ": no writer for this extension, use .tfx, .hair or .ply");
+  if (!writableFormatOf(arguments.out)) {
+    throw UsageError(arguments.out + ": no writer for this extension, use " + writableExtensions());
   }
   OpenedAsset opened;
   {
@@ -95,7 +89,7 @@ int runConvert(const ConvertArguments& arguments) {
   if (arguments.edits()) edit(opened, arguments);
   if (arguments.strict) {
     bool lost = false;
-    for (const AssetMessage& message : rehearse(opened, format)) {
+    for (const AssetMessage& message : rehearseSave(opened, arguments.out)) {
       if (saysDropped(message)) {
         std::fprintf(stderr, "forelock: %s\n", message.text.c_str());
         lost = true;
@@ -122,7 +116,7 @@ void addConvertCommand(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("convert", "Write an asset in another strand format.");
   auto arguments = std::make_shared<ConvertArguments>();
   command->add_option("IN", arguments->in, "A strand file, a recipe or groom:NAME")->required();
-  command->add_option("OUT", arguments->out, "The file to write: .hair, .ply or .tfx")->required();
+  command->add_option("OUT", arguments->out, "The file to write: " + writableExtensions())->required();
   command->add_flag("--strict", arguments->strict, "Fail instead of leaving out what the target cannot hold");
   command->add_option("--scale", arguments->scale, "Positions and widths times this: 0.01 makes metres of centimetres")->check(CLI::PositiveNumber);
   command->add_option("--axes", arguments->axes, "New axes from old ones: x,z,-y makes y up of z up, x,-z,y the other way")->check([](const std::string& text) {

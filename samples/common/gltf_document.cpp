@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 #include <string_view>
 
 namespace forelock::samples {
@@ -139,8 +140,10 @@ GltfDocument readGltfDocument(std::vector<unsigned char> bytes, const std::files
   document.deforms = checked.deforms;
   document.bytes_unused = chunks.bytes_unused;
   std::string error, warning;
-  if (!parser.LoadASCIIFromString(&document.model, &error, &warning, text.c_str(), static_cast<unsigned>(text.size()), ""))
+  if (!parser.LoadASCIIFromString(&document.model, &error, &warning, text.c_str(), static_cast<unsigned>(text.size()), "")) {
+    if (error == std::bad_alloc().what()) throw std::bad_alloc();  // the parser makes a sentence of it
     refuseGltf("GLTF_PARSER", "its structure cannot be read (" + printable(error, 200) + "): export it again");
+  }
   return document;
 }
 

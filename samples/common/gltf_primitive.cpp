@@ -32,14 +32,16 @@ bool isExtensionNamed(const tinygltf::Model& model, const char* name) {
 }  // namespace
 
 GltfCollector::GltfCollector(const tinygltf::Model& model, const GltfLimits& limits, GltfFindings& findings)
-    : model_(model), limits_(limits), findings_(findings), accessors_(model) {
+    : limits_(limits), findings_(findings), accessors_(model) {
   restart_declared_ = isExtensionNamed(model, "KHR_mesh_primitive_restart") || isExtensionNamed(model, "EXT_mesh_primitive_restart");
   strands_.first_vertex.push_back(0);
 }
 
 GltfCollector::Attributes GltfCollector::attributesOf(const tinygltf::Primitive& primitive, const std::string& where) {
   Attributes found;
-  for (const auto& [name, accessor] : primitive.attributes) {
+  for (const auto& attribute : primitive.attributes) {
+    const std::string& name = attribute.first;
+    const int accessor = attribute.second;
     const std::string role = printable(name) + " of " + where;
     const auto take = [&](const GltfAccessor*& slot, int components, int more_components, bool integers_as_they_are) {
       const GltfAccessor& read = accessors_.get(accessor, role);

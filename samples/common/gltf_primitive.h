@@ -44,7 +44,6 @@ private:
   void fill(Partial& partial, size_t count, float value);
 
 
-  const tinygltf::Model& model_;
   const GltfLimits limits_;
   GltfFindings& findings_;
   GltfAccessors accessors_;

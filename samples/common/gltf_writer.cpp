@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf_writer.h"
 
+#include "strand_formats.h"
 #include "whole_file.h"
 
 #include <nlohmann/json.hpp>
@@ -169,12 +170,6 @@ std::string uriOf(const std::string& name) {
   return uri;
 }
 
-bool isGlb(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".glb";
-}
-
 }  // namespace
 
 GltfFiles writeGltf(const OpenedAsset& opened, const std::string& buffer_name, const std::string& label) {
@@ -218,12 +213,12 @@ std::vector<AssetMessage> gltfLosses(const OpenedAsset& opened, const std::strin
 }
 
 void saveGltf(const OpenedAsset& opened, const std::string& path) {
-  if (isGlb(path)) {
+  const fs::path buffer_path = gltfBufferPath(path);
+  if (buffer_path.empty()) {
     const GltfFiles files = writeGltf(opened, "", path);
     writeWholeFiles({{path, files.main}});
     return;
   }
-  const fs::path buffer_path = fs::path(path).replace_extension(".bin");
   // CT2Hair's files are called .bin too: only the buffer of a .gltf file that is replaced may be replaced with it.
   std::error_code error;
   if (fs::exists(buffer_path, error) && !fs::exists(path, error))

@@ -18,7 +18,7 @@ GltfFiles writeGltf(const OpenedAsset& opened, const std::string& buffer_name, c
 // What writing changes or loses.
 std::vector<AssetMessage> gltfLosses(const OpenedAsset& opened, const std::string& label);
 
-// Writes PATH, and beside PATH.gltf its PATH.bin; through temporary files. Throws AssetError.
+// Writes the file, and beside a .gltf file its .bin file; through temporary files. Throws AssetError.
 void saveGltf(const OpenedAsset& opened, const std::string& path);
 
 }  // namespace forelock::samples

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <string_view>
 
 namespace forelock::samples {
 namespace {
@@ -34,6 +35,11 @@ std::string writableExtensions() {
   std::string list;
   for (const WritableFormat& format : formats) list += (list.empty() ? "" : &format == std::end(formats) - 1 ? " or " : ", ") + std::string(format.extension);
   return list;
+}
+
+std::string gltfBufferPath(const std::string& path) {
+  const WritableFormat* format = writableFormatOf(path);
+  return format && format->extension == std::string_view(".gltf") ? std::filesystem::path(path).replace_extension(".bin").string() : "";
 }
 
 }  // namespace forelock::samples

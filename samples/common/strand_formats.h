@@ -23,4 +23,7 @@ const WritableFormat* writableFormatOf(const std::string& path);
 // ".glb, .gltf, .hair, .ply or .tfx"
 std::string writableExtensions();
 
+// The .bin file that lies beside a .gltf file; "" of other formats.
+std::string gltfBufferPath(const std::string& path);
+
 }  // namespace forelock::samples

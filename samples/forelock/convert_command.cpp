@@ -104,7 +104,8 @@ int runConvert(const ConvertArguments& arguments) {
   FlkAssetInfo info = {};
   flkAssetGetInfo(opened.asset.get(), &info);
   std::error_code error;
-  const uintmax_t bytes = std::filesystem::file_size(arguments.out, error);
+  uintmax_t bytes = std::filesystem::file_size(arguments.out, error);
+  if (const std::string buffer = gltfBufferPath(arguments.out); !error && !buffer.empty()) bytes += std::filesystem::file_size(buffer, error);
   std::printf("%s: %s strands, %s vertices, %s\n", arguments.out.c_str(), groupedDigits(info.strand_count).c_str(),
               groupedDigits(info.vertex_count).c_str(), readableBytes(error ? 0 : bytes).c_str());
   return kDone;

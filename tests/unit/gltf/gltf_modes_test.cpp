@@ -1,6 +1,10 @@
 // Modes of lines, scenes and topology. SPDX-License-Identifier: MIT
 #include "gltf_kit.h"
 
+#include <algorithm>
+#include <numeric>
+#include <random>
+
 namespace forelock::samples {
 namespace {
 
@@ -81,6 +85,45 @@ TEST(GltfModes, ShuffledVerticesSayThatTheRootIsAGuess) {
   maker.primitiveAlongX(kLines, 4, {2, 0, 0, 3, 3, 1});
   const GltfStrands read = readMade(maker);
   EXPECT_EQ(xOf(read), "1 3 0 2");
+  EXPECT_EQ(codesOf(read), "GLTF_ROOT_GUESSED");
+}
+
+// Whatever the order of vertices and segments and the direction of these, the same polylines come out, if some of them upside down.
+TEST(GltfModes, AnyOrderGivesTheSamePolylines) {
+  std::mt19937 random(5);
+  std::vector<std::vector<float>> wanted;
+  std::vector<std::pair<uint32_t, uint32_t>> segments;
+  uint32_t vertices = 0;
+  for (int strand = 0; strand < 50; ++strand) {
+    wanted.emplace_back();
+    for (uint32_t i = 0, count = 2 + random() % 9; i < count; ++i, ++vertices) {
+      wanted.back().push_back(float(vertices));
+      if (i > 0) segments.emplace_back(vertices - 1, vertices);
+    }
+  }
+  std::vector<uint32_t> place(vertices);  // of each vertex in the file
+  std::iota(place.begin(), place.end(), 0u);
+  std::shuffle(place.begin(), place.end(), random);
+  std::shuffle(segments.begin(), segments.end(), random);
+  std::vector<float> positions(3 * size_t(vertices));
+  for (uint32_t v = 0; v < vertices; ++v) positions[3 * size_t(place[v])] = float(v);
+  std::vector<uint16_t> pairs;
+  for (const auto& [a, b] : segments) {
+    const bool turned = random() % 2;
+    pairs.push_back(uint16_t(place[turned ? b : a])), pairs.push_back(uint16_t(place[turned ? a : b]));
+  }
+  GltfMaker maker;
+  const int position = maker.positions(positions);
+  maker.primitive(kLines, position, maker.indices(pairs));
+  const GltfStrands read = readMade(maker);
+  std::vector<std::vector<float>> found;
+  for (uint32_t strand = 0; strand < read.strands.strands(); ++strand) {
+    found.emplace_back();
+    for (uint32_t v = read.strands.first_vertex[strand]; v < read.strands.first_vertex[strand + 1]; ++v) found.back().push_back(read.strands.positions[3 * size_t(v)]);
+    if (found.back().front() > found.back().back()) std::reverse(found.back().begin(), found.back().end());
+  }
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, wanted);
   EXPECT_EQ(codesOf(read), "GLTF_ROOT_GUESSED");
 }
 

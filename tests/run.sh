@@ -6,13 +6,13 @@ cd "$(dirname "$0")/.."
 
 install=1
 fuzz_seconds=15
-sanitized='test_(asset|plan|groom|api|report)'
+sanitized='test_(asset|plan|groom|gltf|api|report)'
 for argument in "$@"; do
   case $argument in
     --no-install) install=0 ;;
     --full)
       fuzz_seconds=240
-      sanitized='test_(asset|plan|groom|api|report|reference)' ;;
+      sanitized='test_(asset|plan|groom|gltf|api|report|reference)' ;;
     -h | --help)
       cat <<'TEXT'
 usage: sh tests/run.sh [--full] [--no-install]

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "asset_source.h"
 
+#include "gltf_reader.h"
+#include "gltf_writer.h"
 #include "groom.h"
+#include "strand_formats.h"
 #include "tfx_project.h"
 
 #include <algorithm>
@@ -183,7 +186,12 @@ OpenedAsset assetOf(const FlkStrands& strands, const std::string& label) {
 }
 
 OpenedAsset openAsset(const std::string& source, const ProgressFunction& progress) {
-  if (source.rfind(kGroomPrefix, 0) == 0 || lowerExtension(source) == ".json") {
+  const bool is_groom = source.rfind(kGroomPrefix, 0) == 0;
+  // Told from its bytes: it may be called .json, as recipes are.
+  if (!is_groom && isGltfFile(source)) {
+    return openGltf(source);
+  }
+  if (is_groom || lowerExtension(source) == ".json") {
     return growAsset(openRecipe(source), source, progress);
   }
   FlkAssetOptions options;
@@ -203,24 +211,67 @@ OpenedAsset openAsset(const std::string& source, const ProgressFunction& progres
   return opened;
 }
 
-uint32_t formatOfPath(const std::string& path) {
-  const std::string extension = lowerExtension(path);
-  return extension == ".tfx" ? FLK_FORMAT_TFX : extension == ".hair" ? FLK_FORMAT_HAIR : extension == ".ply" ? FLK_FORMAT_PLY : extension == ".flk" ? FLK_FORMAT_COOKED : FLK_FORMAT_UNKNOWN;
+namespace {
+
+// Which formats have no place for what the tools know beside the strands.
+std::vector<AssetMessage> toolLosses(const OpenedAsset& opened, const WritableFormat& format, const std::string& label) {
+  if (format.library == FLK_FORMAT_UNKNOWN) {
+    return gltfLosses(opened, label);
+  }
+  if (opened.groups.empty() || opened.group_names.size() < 2 || format.keeps_groups) {
+    return {};
+  }
+  return {{FLK_SEVERITY_WARNING, "WRITE_DROPS_GROUPS", label + ": the " + std::to_string(opened.group_names.size()) +
+           " groups of strands are left out, which " + format.extension + " does not hold: write .glb to keep them"}};
+}
+
+const WritableFormat& formatFor(const std::string& path) {
+  const WritableFormat* format = writableFormatOf(path);
+  if (!format) {
+    throw AssetError(FLK_ERROR_FORMAT_UNKNOWN, path + ": no writer for this extension, use " + writableExtensions());
+  }
+  return *format;
+}
+
+// What the library said since there were `before` messages.
+std::vector<AssetMessage> saidSince(const OpenedAsset& opened, size_t before) {
+  return {opened.messages->begin() + static_cast<std::ptrdiff_t>(before), opened.messages->end()};
+}
+
+}  // namespace
+
+std::vector<AssetMessage> rehearseSave(const OpenedAsset& opened, const std::string& path) {
+  const WritableFormat& format = formatFor(path);
+  std::vector<AssetMessage> losses = toolLosses(opened, format, opened.label);
+  if (format.library == FLK_FORMAT_UNKNOWN) {
+    return losses;
+  }
+  const size_t before = opened.messages->size();
+  size_t size = 0;
+  if (flkAssetSaveMemory(opened.asset.get(), format.library, nullptr, &size) == FLK_SUCCESS) {
+    std::vector<unsigned char> bytes(size);
+    flkAssetSaveMemory(opened.asset.get(), format.library, bytes.data(), &size);
+  }
+  const std::vector<AssetMessage> said = saidSince(opened, before);
+  losses.insert(losses.end(), said.begin(), said.end());
+  return losses;
 }
 
 std::vector<AssetMessage> saveAsset(const OpenedAsset& opened, const std::string& path) {
-  const uint32_t format = formatOfPath(path);
-  if (format == FLK_FORMAT_UNKNOWN) {
-    throw AssetError(FLK_ERROR_FORMAT_UNKNOWN, path + ": no writer for this extension, use .tfx, .hair, .ply or .flk");
+  const WritableFormat& format = formatFor(path);
+  std::vector<AssetMessage> losses = toolLosses(opened, format, opened.label);
+  if (format.library == FLK_FORMAT_UNKNOWN) {
+    saveGltf(opened, path);
+    return losses;
   }
   const size_t before = opened.messages->size();
-  const FlkResult result = flkAssetSaveFile(opened.asset.get(), format, path.c_str());
-  std::vector<AssetMessage> said(opened.messages->begin() + static_cast<std::ptrdiff_t>(before),
-                                 opened.messages->end());
+  const FlkResult result = flkAssetSaveFile(opened.asset.get(), format.library, path.c_str());
+  const std::vector<AssetMessage> said = saidSince(opened, before);
   if (result != FLK_SUCCESS) {
     throw AssetError(result, lastError(said, path, result));
   }
-  return said;
+  losses.insert(losses.end(), said.begin(), said.end());
+  return losses;
 }
 
 }  // namespace forelock::samples

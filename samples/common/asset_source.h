@@ -63,7 +63,7 @@ std::vector<AssetFinding> findingsOf(const OpenedAsset& opened);
 // Called from any thread with work done and work to do.
 using ProgressFunction = std::function<void(uint64_t done, uint64_t total)>;
 
-// Opens a strand file, a recipe file (*.json) or groom:NAME. Throws AssetError.
+// Opens a strand file (also glTF, whatever it is called), a recipe file (*.json) or groom:NAME. Throws AssetError.
 OpenedAsset openAsset(const std::string& source, const ProgressFunction& progress = {});
 
 // Grows a recipe into an asset. Throws AssetError.
@@ -82,10 +82,11 @@ std::vector<std::string> groomFolders();
 // Names of all grooms that are found, sorted.
 std::vector<std::string> groomNames();
 
-// Format of a path by its extension; FLK_FORMAT_UNKNOWN where no writer exists for it.
-uint32_t formatOfPath(const std::string& path);
-
-// Saves, and gives what the library had to say, above all what the format cannot hold. Throws AssetError.
+// Saves in the format of the path's extension (strand_formats.h), and gives what there is to say about it, above all what the
+// format cannot hold, as WRITE_DROPS_... Throws AssetError.
 std::vector<AssetMessage> saveAsset(const OpenedAsset& opened, const std::string& path);
+
+// What saveAsset would say, without writing a file. Throws AssetError.
+std::vector<AssetMessage> rehearseSave(const OpenedAsset& opened, const std::string& path);
 
 }  // namespace forelock::samples

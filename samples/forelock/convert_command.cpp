@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "convert_edits.h"
 #include "progress.h"
+#include "strand_formats.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -20,6 +21,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  forelock convert pony.tfx pony.hair\n"
     "  forelock convert pony.tfx pony.ply               keeps everything; any viewer of PLY files shows its lines\n"
+    "  forelock convert pony.tfx pony.glb               glTF lines, which every viewer and Blender open; keeps everything\n"
     "  forelock convert groom:long-wavy hair.tfx\n"
     "  forelock convert pony.hair pony.flk              a cache that loads many times faster; cook it again after an update\n"
     "  forelock convert cm.hair game.tfx --scale 0.01 --axes x,z,-y --resample 16\n"
@@ -30,21 +32,9 @@ constexpr const char* kExamples =
 
 bool saysDropped(const AssetMessage& message) { return message.id.rfind("WRITE_DROPS_", 0) == 0; }
 
-// Asks the library what it would leave out, without writing a file.
-std::vector<AssetMessage> rehearse(const OpenedAsset& opened, uint32_t format) {
-  const size_t before = opened.messages->size();
-  size_t size = 0;
-  if (flkAssetSaveMemory(opened.asset.get(), format, nullptr, &size) == FLK_SUCCESS) {
-    std::vector<unsigned char> bytes(size);
-    flkAssetSaveMemory(opened.asset.get(), format, bytes.data(), &size);
-  }
-  return {opened.messages->begin() + static_cast<std::ptrdiff_t>(before), opened.messages->end()};
-}
-
 int runConvert(const ConvertArguments& arguments) {
-  const uint32_t format = formatOfPath(arguments.out);
-  if (format == FLK_FORMAT_UNKNOWN) {
-    throw UsageError(arguments.out + ": no writer for this extension, use .tfx, .hair, .ply or .flk");
+  if (!writableFormatOf(arguments.out)) {
+    throw UsageError(arguments.out + ": no writer for this extension, use " + writableExtensions());
   }
   OpenedAsset opened;
   {
@@ -55,7 +45,7 @@ int runConvert(const ConvertArguments& arguments) {
   if (arguments.any()) applyEdits(opened, arguments);
   if (arguments.strict) {
     bool lost = false;
-    for (const AssetMessage& message : rehearse(opened, format)) {
+    for (const AssetMessage& message : rehearseSave(opened, arguments.out)) {
       if (saysDropped(message)) {
         std::fprintf(stderr, "forelock: %s\n", message.text.c_str());
         lost = true;
@@ -70,7 +60,8 @@ int runConvert(const ConvertArguments& arguments) {
   FlkAssetInfo info = {};
   flkAssetGetInfo(opened.asset.get(), &info);
   std::error_code error;
-  const uintmax_t bytes = std::filesystem::file_size(arguments.out, error);
+  uintmax_t bytes = std::filesystem::file_size(arguments.out, error);
+  if (const std::string buffer = gltfBufferPath(arguments.out); !error && !buffer.empty()) bytes += std::filesystem::file_size(buffer, error);
   std::printf("%s: %s strands, %s vertices, %s\n", arguments.out.c_str(), groupedDigits(info.strand_count).c_str(),
               groupedDigits(info.vertex_count).c_str(), readableBytes(error ? 0 : bytes).c_str());
   return kDone;
@@ -82,7 +73,7 @@ void addConvertCommand(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("convert", "Write an asset in another strand format.");
   auto arguments = std::make_shared<ConvertArguments>();
   command->add_option("IN", arguments->in, "A strand file, a recipe or groom:NAME")->required();
-  command->add_option("OUT", arguments->out, "The file to write: .hair, .ply, .tfx or .flk")->required();
+  command->add_option("OUT", arguments->out, "The file to write: " + writableExtensions())->required();
   command->add_flag("--strict", arguments->strict, "Fail instead of leaving out what the target cannot hold");
   addConvertEdits(*command, *arguments);
   command->footer(kExamples);

@@ -1,6 +1,7 @@
 // `forelock groom`: a procedural groom written to a strand file. SPDX-License-Identifier: MIT
 #include "commands.h"
 #include "progress.h"
+#include "strand_formats.h"
 
 #include <cstdio>
 
@@ -45,8 +46,8 @@ void runGroom(const CLI::App& command, const GroomArguments& arguments) {
   if (arguments.recipe.empty() || arguments.out.empty()) {
     throw UsageError("groom needs RECIPE and OUT, or --list; `forelock groom --help` explains");
   }
-  if (formatOfPath(arguments.out) == FLK_FORMAT_UNKNOWN) {
-    throw UsageError(arguments.out + ": no writer for this extension, use .tfx, .hair, .ply or .flk");
+  if (!writableFormatOf(arguments.out)) {
+    throw UsageError(arguments.out + ": no writer for this extension, use " + writableExtensions());
   }
   Recipe recipe = openRecipe(arguments.recipe);
   if (command.count("--strands")) {

@@ -3,6 +3,7 @@
 #include "inspect_batch.h"
 #include "inspect_report.h"
 #include "progress.h"
+#include "strand_formats.h"
 #include "strand_edit.h"
 
 #include <algorithm>
@@ -129,8 +130,8 @@ int inspectMany(const InspectArguments& arguments) {
 int runInspect(const InspectArguments& arguments) {
   if (arguments.repair.empty() && (arguments.overwrite || !arguments.repair_only.empty() || !arguments.repair_also.empty()))
     throw UsageError("--repair-only, --repair-also and --overwrite-input need --repair OUT");
-  if (!arguments.repair.empty() && formatOfPath(arguments.repair) == FLK_FORMAT_UNKNOWN)
-    throw UsageError(arguments.repair + ": no writer for this extension, use .tfx, .hair or .ply");
+  if (!arguments.repair.empty() && !writableFormatOf(arguments.repair))
+    throw UsageError(arguments.repair + ": no writer for this extension, use " + writableExtensions());
   try {  // before a long load
     EditableStrands none;
     none.first_vertex.push_back(0);

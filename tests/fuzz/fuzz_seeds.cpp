@@ -1,6 +1,7 @@
-// fuzz_seeds tfx|hair|text|data|ply|cooked FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by
+// fuzz_seeds tfx|hair|text|data|ply|cooked|gltf FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by
 // hand; what the SDK does not write, by hand altogether.
 #include "asset_invariants.h"
+#include "gltf_files.h"
 #include "text_files.h"
 
 #include <cstdio>
@@ -79,6 +80,17 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(folder);
   if (kind == "text") return put(folder / "text", bytesOf(asset_test::smallTfxText())) ? 0 : 1;
   if (kind == "data") return put(folder / "narrow", strandData(3)) && put(folder / "wide", strandData(7)) ? 0 : 1;
+  if (kind == "gltf") {
+    const std::vector<unsigned char> bytes = asset_test::gltfBytes();
+    const auto glb = [&](const char* primitives, const char* more = "") { return asset_test::glbOf(asset_test::gltfJson(primitives, more), bytes); };
+    std::string text = asset_test::gltfJson(R"([{"attributes":{"POSITION":0},"mode":3}])");
+    text.insert(text.find(R"("byteLength":96)"), R"("uri":"data:application/octet-stream;base64,)" + std::string(128, 'A') + "\",");
+    const bool written = put(folder / "lines", glb(R"([{"attributes":{"POSITION":0,"_WIDTH":3},"indices":1,"mode":1}])")) &&
+                         put(folder / "strips", glb(R"([{"attributes":{"POSITION":0},"indices":4,"mode":3},{"attributes":{"POSITION":5},"mode":2}])",
+                                                    R"(,"extensionsRequired":["KHR_mesh_primitive_restart"])")) &&
+                         put(folder / "quantised", glb(R"([{"attributes":{"POSITION":2,"COLOR_0":2},"mode":1}])")) && put(folder / "text", bytesOf(text));
+    return written ? 0 : 1;
+  }
   if (kind == "ply") {
     FlkAsset asset = makeAsset(false);
     FlkResult result = FLK_SUCCESS;

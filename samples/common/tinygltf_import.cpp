@@ -1,0 +1,3 @@
+// The parser itself, which its header holds. SPDX-License-Identifier: MIT
+#define TINYGLTF_IMPLEMENTATION
+#include "tinygltf_import.h"

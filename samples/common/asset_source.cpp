@@ -218,11 +218,16 @@ std::vector<AssetMessage> toolLosses(const OpenedAsset& opened, const WritableFo
   if (format.library == FLK_FORMAT_UNKNOWN) {
     return gltfLosses(opened, label);
   }
-  if (opened.groups.empty() || opened.group_names.size() < 2 || format.keeps_groups) {
-    return {};
+  std::vector<AssetMessage> losses;
+  if (!opened.groups.empty() && opened.group_names.size() > 1 && !format.keeps_groups) {
+    losses.push_back({FLK_SEVERITY_WARNING, "WRITE_DROPS_GROUPS", label + ": the " + std::to_string(opened.group_names.size()) +
+                      " groups of strands are left out, which " + format.extension + " does not hold: write .glb to keep them"});
   }
-  return {{FLK_SEVERITY_WARNING, "WRITE_DROPS_GROUPS", label + ": the " + std::to_string(opened.group_names.size()) +
-           " groups of strands are left out, which " + format.extension + " does not hold: write .glb to keep them"}};
+  if (format.library == FLK_FORMAT_COOKED && !opened.source_findings.empty()) {
+    losses.push_back({FLK_SEVERITY_WARNING, "WRITE_DROPS_FINDINGS", label + ": " + std::to_string(opened.source_findings.size()) +
+                      " findings of its reader are left out, a cache keeps those of the library: `forelock inspect` says them of the source"});
+  }
+  return losses;
 }
 
 const WritableFormat& formatFor(const std::string& path) {

@@ -101,7 +101,7 @@ TEST_F(GltfFiles, AnAssetCarriesFindingsWarningsAndGroupsOfTheStrandsThatAreLeft
   maker.json["meshes"].push_back(Json{{"primitives", Json::array()}});
   const int positions = maker.positionsAlongX(3);
   maker.primitive(kLineLoop, positions);
-  maker.json["meshes"][1]["primitives"].push_back({{"attributes", {{"POSITION", positions}}}, {"mode", kLineStrip}});
+  maker.json["meshes"][1]["primitives"].push_back({{"attributes", {{"POSITION", maker.positionsAlongX(4)}}}, {"mode", kLineStrip}});
   maker.json["nodes"] = Json::parse(R"([{"mesh": 0, "name": "a"}, {"mesh": 1, "name": "b"}])");
   maker.json["scenes"][0]["nodes"] = {0, 1};
   const std::vector<unsigned char> glb = maker.glb();

@@ -172,7 +172,7 @@ TEST_F(GltfWrite, AFailureLeavesWhatWasThereAndNothingElse) {
 }
 
 TEST(StrandFormats, OneTableOfExtensions) {
-  EXPECT_EQ(writableExtensions(), ".glb, .gltf, .hair, .ply or .tfx");
+  EXPECT_EQ(writableExtensions(), ".flk, .glb, .gltf, .hair, .ply or .tfx");
   EXPECT_STREQ(writableFormatOf("A.GLB")->extension, ".glb");
   EXPECT_EQ(writableFormatOf("a.tfx")->library, uint32_t{FLK_FORMAT_TFX});
   EXPECT_EQ(writableFormatOf("a.abc"), nullptr);

@@ -26,7 +26,7 @@ FlkResult finish(FlkAsset_T& asset, const Places& places, uint32_t format) {
   const auto bytes = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   const StrandArrays& arrays = asset.arrays;
   asset.info.bytes_host = sizeof(FlkAsset_T) + asset.name.capacity() + bytes(arrays.first_vertex) + bytes(arrays.positions) +
-                          bytes(arrays.radii) + bytes(arrays.root_uvs) + bytes(arrays.inverse_masses) + bytes(arrays.colors) +
+                          bytes(arrays.radii) + bytes(arrays.root_uvs) + bytes(arrays.inverse_masses) + bytes(arrays.colors) + bytes(arrays.dropped_strands) +
                           asset.findings.bytes();
   asset.findings.tell(report);
   return FLK_SUCCESS;
@@ -75,7 +75,7 @@ FlkResult makeAsset(const FlkStrands& strands, const AssetSettings& settings, As
 FlkResult readAsset(std::span<const std::byte> bytes, const AssetSettings& settings, AssetPointer& asset) {
   const Report report(settings.messages, settings.name);
   uint32_t format = FLK_FORMAT_UNKNOWN;
-  FlkResult result = sniffFormat(bytes, report, format);
+  FlkResult result = sniffStrands(bytes, report, format);
   if (result != FLK_SUCCESS) return result;
   AssetPointer made = newAsset(settings);
   Places places;

@@ -107,7 +107,8 @@ void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, 
 }
 
 // Closes the gaps of dropped strands. Everything moves towards the front, so it can be done in place.
-void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths) {
+void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths, uint32_t kept) {
+  arrays.dropped_strands.reserve(lengths.size() - kept);
   uint32_t strands = 0, vertices = 0;
   const auto move = [](std::pmr::vector<float>& array, std::size_t from, std::size_t to, std::size_t count) {
     if (array.empty() || from == to) return;
@@ -115,7 +116,10 @@ void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths)
     std::copy(source, source + static_cast<std::ptrdiff_t>(count), array.begin() + static_cast<std::ptrdiff_t>(to));
   };
   for (uint32_t strand = 0; strand < lengths.size(); ++strand) {
-    if (lengths[strand] == dropped) continue;
+    if (lengths[strand] == dropped) {
+      arrays.dropped_strands.push_back(strand);
+      continue;
+    }
     const uint32_t begin = arrays.first_vertex[strand], count = arrays.first_vertex[strand + 1] - begin;
     move(arrays.positions, std::size_t{begin} * 3, std::size_t{vertices} * 3, std::size_t{count} * 3);
     move(arrays.radii, begin, vertices, count);
@@ -223,7 +227,7 @@ FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_
   const float default_radius = defaultRadius(kept);
   noteMicroStrands(arrays, lengths, places, findings);
   repairValues(arrays, lengths, default_radius, places, findings);
-  if (kept != source_strands) removeDropped(arrays, lengths);
+  if (kept != source_strands) removeDropped(arrays, lengths, kept);
 
   info.has_radii = !arrays.radii.empty();
   info.has_root_uvs = !arrays.root_uvs.empty();

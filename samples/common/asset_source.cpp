@@ -180,12 +180,13 @@ OpenedAsset assetOf(const FlkStrands& strands, const std::string& label) {
   return opened;
 }
 
-OpenedAsset openAsset(const std::string& source, const ProgressFunction& progress) {
+OpenedAsset openAsset(const std::string& source, const ProgressFunction& progress, const OpenOptions& how) {
   if (source.rfind(kGroomPrefix, 0) == 0 || lowerExtension(source) == ".json") {
     return growAsset(openRecipe(source), source, progress);
   }
   FlkAssetOptions options;
   OpenedAsset opened = prepare(source, options);
+  options.points_per_strand = how.points_per_strand;
   FlkAsset asset = nullptr;
   const FlkResult result = flkAssetLoadFile(source.c_str(), &options, &asset);
   finish(opened, result, asset);

@@ -16,7 +16,7 @@ struct ConvertArguments {
   bool strict = false;
   std::string axes;
   double scale = 1, min_length = 0;
-  uint32_t resample = 0;
+  uint32_t resample = 0, points_per_strand = 0;
   bool flip_v = false, reverse = false, recentre = false;
 
   bool edits() const { return !axes.empty() || scale != 1 || min_length > 0 || resample != 0 || flip_v || reverse || recentre; }
@@ -29,6 +29,7 @@ constexpr const char* kExamples =
     "  forelock convert pony.tfx pony.ply               keeps everything; any viewer of PLY files shows its lines\n"
     "  forelock convert groom:long-wavy hair.tfx\n"
     "  forelock convert cm.hair game.tfx --scale 0.01 --axes x,z,-y --resample 16\n"
+    "  forelock convert points.ply hair.ply --points-per-strand 100   bare points, as NeuralHaircut writes them\n"
     "  forelock convert --strict pony.hair pony.tfx     fail, and write nothing, if anything is lost\n";
 
 bool saysDropped(const AssetMessage& message) { return message.id.rfind("WRITE_DROPS_", 0) == 0; }
@@ -89,7 +90,8 @@ int runConvert(const ConvertArguments& arguments) {
   OpenedAsset opened;
   {
     Progress progress("opening " + arguments.in);
-    opened = openAsset(arguments.in, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+    opened = openAsset(arguments.in, [&](uint64_t done, uint64_t total) { progress.update(done, total); },
+                       {arguments.points_per_strand});
   }
   printMessages(*opened.messages, false);
   if (arguments.edits()) edit(opened, arguments);
@@ -138,6 +140,7 @@ void addConvertCommand(CLI::App& program, int& exit_code) {
   command->add_flag("--flip-v", arguments->flip_v, "v of the root UVs becomes 1 - v");
   command->add_option("--min-length", arguments->min_length, "Remove strands that are shorter (unit of the written file)")->check(CLI::PositiveNumber);
   command->add_option("--resample", arguments->resample, "Vertices a strand, evenly along it; says how far lengths are off")->check(CLI::Range(2, 1024));
+  addOpenOptions(*command, arguments->points_per_strand);
   command->footer(kExamples);
   command->callback([arguments, &exit_code] { exit_code = runConvert(*arguments); });
 }

@@ -1,6 +1,7 @@
 // `forelock inspect`: what is in an asset, and what is wrong with it. SPDX-License-Identifier: MIT
 #include "commands.h"
 #include "progress.h"
+#include "rig_report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +12,8 @@ namespace forelock::samples {
 namespace {
 
 struct InspectArguments {
-  std::string asset;
+  std::string asset, bones;
+  uint32_t points_per_strand = 0;
   bool json = false;
   bool strict = false;
 };
@@ -22,6 +24,9 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  forelock inspect pony.tfx\n"
     "  forelock inspect groom:long-wavy --json\n"
+    "  forelock inspect head.tfxbone                         bones and weights; head.tfxmesh: the collision mesh\n"
+    "  forelock inspect pony.tfx --bones pony.tfxbone        do both belong together?\n"
+    "  forelock inspect points.ply --points-per-strand 100   a PLY file of bare points, as NeuralHaircut writes them\n"
     "  forelock inspect --strict pony.hair && echo clean     exit status 1 on any warning or error\n";
 
 void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::vector<AssetFinding>& findings) {
@@ -66,7 +71,7 @@ void printText(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
   }
 }
 
-void printJson(const OpenedAsset& opened, const FlkAssetInfo& info, const std::vector<AssetFinding>& findings) {
+void printJson(const OpenedAsset& opened, const FlkAssetInfo& info, const std::vector<AssetFinding>& findings, const OpenedRig* rig) {
   nlohmann::ordered_json json;
   json["asset"] = opened.label;
   json["format"] = opened.format;
@@ -99,25 +104,33 @@ void printJson(const OpenedAsset& opened, const FlkAssetInfo& info, const std::v
     entry["text"] = finding.text;
     json["findings"].push_back(entry);
   }
+  if (rig) json["rig"] = rigJson(*rig);
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;  // a file name need not be UTF-8
   std::printf("%s\n", json.dump(2, ' ', false, replace).c_str());
 }
 
 int runInspect(const InspectArguments& arguments) {
+  if (arguments.bones.empty()) {
+    if (const std::optional<int> done = inspectIfRig(arguments.asset, arguments.json, arguments.strict)) return *done;
+  }
   OpenedAsset opened;
   {
     Progress progress("opening " + arguments.asset);
-    opened = openAsset(arguments.asset, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+    opened = openAsset(arguments.asset, [&](uint64_t done, uint64_t total) { progress.update(done, total); },
+                       {arguments.points_per_strand});
   }
+  std::optional<OpenedRig> rig;
+  if (!arguments.bones.empty()) rig = openRig(arguments.bones, opened.asset.get());
   FlkAssetInfo info = {};
   flkAssetGetInfo(opened.asset.get(), &info);
   const std::vector<AssetFinding> findings = findingsOf(opened);
   if (arguments.json) {
-    printJson(opened, info, findings);
+    printJson(opened, info, findings, rig ? &*rig : nullptr);
   } else {
     printText(opened, info, findings);
+    if (rig) printRig(*rig);
   }
-  bool clean = true;
+  bool clean = !rig || rig->clean();
   for (const AssetFinding& finding : findings) {
     clean = clean && finding.severity == FLK_SEVERITY_INFO;
   }
@@ -129,9 +142,11 @@ int runInspect(const InspectArguments& arguments) {
 void addInspectCommand(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("inspect", "Say what is in an asset, and what is wrong with it.");
   auto arguments = std::make_shared<InspectArguments>();
-  command->add_option("ASSET", arguments->asset, "A strand file, a recipe or groom:NAME")->required();
+  command->add_option("ASSET", arguments->asset, "A strand file, a recipe, groom:NAME, or a rig (.tfxbone, .tfxmesh)")->required();
   command->add_flag("--json", arguments->json, "Print JSON for programs");
   command->add_flag("--strict", arguments->strict, "Exit with 1 if there is any finding of severity warning or error");
+  command->add_option("--bones", arguments->bones, "The hair's .tfxbone file, to be checked with it")->type_name("FILE");
+  addOpenOptions(*command, arguments->points_per_strand);
   command->footer(kExamples);
   command->callback([arguments, &exit_code] { exit_code = runInspect(*arguments); });
 }

@@ -1,6 +1,7 @@
-// fuzz_seeds tfx|hair|text|data|ply FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by
+// fuzz_seeds tfx|hair|text|data|ply|bone|mesh FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by
 // hand; what the SDK does not write, by hand altogether.
 #include "asset_invariants.h"
+#include "rig_files.h"
 #include "text_files.h"
 
 #include <cstdio>
@@ -79,6 +80,18 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(folder);
   if (kind == "text") return put(folder / "text", bytesOf(asset_test::smallTfxText())) ? 0 : 1;
   if (kind == "data") return put(folder / "narrow", strandData(3)) && put(folder / "wide", strandData(7)) ? 0 : 1;
+  if (kind == "mesh") {
+    // As the target sets its first bytes.
+    const std::string text = asset_test::smallTfxmesh();
+    return put(folder / "mesh", bytesOf(text.substr(text.find("numOfBones")))) ? 0 : 1;
+  }
+  if (kind == "bone") {
+    std::vector<unsigned char> odd = asset_test::smallTfxbone();
+    setU32(odd, 53, 0xffffffff);                    // a bone of -1
+    setU32(odd, 49 + 36 + 8, 0x3e4ccccd);           // weights that make 0.7
+    odd.resize(odd.size() + 3);
+    return put(folder / "skin", asset_test::smallTfxbone()) && put(folder / "odd", odd) ? 0 : 1;
+  }
   if (kind == "ply") {
     FlkAsset asset = makeAsset(false);
     FlkResult result = FLK_SUCCESS;

@@ -38,7 +38,7 @@ public:
     return *this;
   }
   Bytes& setU32(size_t at, uint64_t value) {
-    for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<unsigned char>(value >> (8 * i));
+    for (size_t i = 0; i < 4; ++i) bytes.at(at + i) = static_cast<unsigned char>(value >> (8 * i));
     return *this;
   }
   Bytes& setF32(size_t at, float value) {

@@ -105,6 +105,34 @@ TEST(Ply, RecordsOfNothing) {
   EXPECT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
 }
 
+// Properties of every type, in both byte orders: what is used may have any.
+TEST(Ply, EveryType) {
+  for (const bool big : {false, true}) {
+    Bytes file;
+    file.text(std::string("ply\nformat binary_") + (big ? "big" : "little") +
+              "_endian 1.0\nelement vertex 2\nproperty int8 a\nproperty uint16 x\nproperty int32 y\nproperty double z\nproperty uint32 b\n"
+              "property list int16 short c\nelement strand 1\nproperty int nsegs\nend_header\n");
+    const auto put = [&](uint64_t bits, int size) {
+      for (int i = 0; i < size; ++i) file.bytes.push_back(static_cast<unsigned char>(bits >> (8 * (big ? size - 1 - i : i))));
+    };
+    for (int vertex = 0; vertex < 2; ++vertex) {
+      put(0x80, 1);
+      put(vertex ? 0xffff : 3, 2);
+      put(vertex ? 0xfffffffe : 4, 4);
+      put(vertex ? 0x4004000000000000 : 0xbfe0000000000000, 8);  // 2.5, -0.5
+      put(0xffffffff, 4);
+      put(1, 2);
+      put(0x8000, 2);
+    }
+    put(1, 4);
+    const auto loaded = load(file);
+    ASSERT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
+    const float expected[6] = {3, 4, -0.5f, 65535, -2, 2.5f};
+    EXPECT_EQ(std::memcmp(loaded->strands().positions, expected, sizeof expected), 0);
+    EXPECT_EQ(load(file.cut(file.size() - 1))->caught.error(), "PLY_PAST_END");
+  }
+}
+
 // As NeuralHaircut writes them: vertices, and nothing that says which make a strand.
 TEST(Ply, BarePoints) {
   std::string text = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\nend_header\n";

@@ -1,6 +1,7 @@
 // What rig.h promises of every rig, checked through the public functions only. Shared by unit tests and fuzzing.
 #pragma once
 
+#include "asset_invariants.h"
 #include "forelock/rig.h"
 #include "rig_files.h"
 
@@ -45,7 +46,7 @@ inline const char* brokenRigPromise(FlkRig rig) {
   for (uint32_t i = 0; i < info.finding_count; ++i) {
     FlkFinding finding;
     if (flkRigGetFinding(rig, i, &finding) != FLK_SUCCESS) return "findings can be asked for";
-    if (!finding.code || !*finding.code || !finding.text || !*finding.text || finding.count == 0 || finding.strands_listed > 8)
+    if (!finding.code || !*finding.code || !finding.text || !*finding.text || finding.count == 0 || finding.strands_listed > 8 || !isSentence(finding.text))
       return "findings have a code, a sentence and a count";
   }
   FlkFinding none;

@@ -87,11 +87,9 @@ struct Header {
   }
 };
 
-int printed(std::string_view word) noexcept { return static_cast<int>(word.size() < 40 ? word.size() : 40); }
-
 FlkResult badHeader(const Report& report, const TextCursor& text, const char* what, std::string_view word) {
-  return report.fail(FLK_ERROR_MALFORMED, "PLY_HEADER", "in line %" PRIu64 " of the header (byte %" PRIu64 ") %s, but there is \"%.*s\": "
-                     "the header is damaged or truncated, export it again", text.line(), text.word_at(), what, printed(word), word.data());
+  return report.fail(FLK_ERROR_MALFORMED, "PLY_HEADER", "in line %" PRIu64 " of the header (byte %" PRIu64 ") %s, but there is \"%s\": "
+                     "the header is damaged or truncated, export it again", text.line(), text.word_at(), what, Quoted(word).text);
 }
 
 FlkResult readHeader(std::span<const std::byte> bytes, const Report& report, Header& header) {

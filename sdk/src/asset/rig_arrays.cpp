@@ -51,9 +51,9 @@ void BoneNames::finish(Findings& findings) {
     } else if (first_of[bone] != none) {
       if (findings.count(FindingKind::bone_name_duplicate) == 0)
         findings.describe(FindingKind::bone_name_duplicate,
-                          "bones have the name of a bone before them, the first is \"%.100s\" (bone %" PRIu32 " after bone %" PRIu32
+                          "bones have the name of a bone before them, the first is \"%s\" (bone %" PRIu32 " after bone %" PRIu32
                           "): a look-up by name finds one of them only; rename the joints or export with their namespaces",
-                          pointers_[bone], bone, first_of[bone]);
+                          Quoted(pointers_[bone]).text, bone, first_of[bone]);
       findings.note(FindingKind::bone_name_duplicate, bone, no_byte);
     }
   }

@@ -61,13 +61,8 @@ constexpr Signature text_signatures[] = {
      "a USD text layer, which is not read: export the curves as .tfx or .hair from the program that made it"},
 };
 
-char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 bool startsWithoutCase(std::string_view text, std::string_view start) noexcept {
-  if (text.size() < start.size()) return false;
-  for (std::size_t i = 0; i < start.size(); ++i)
-    if (lower(text[i]) != start[i]) return false;
-  return true;
+  return text.size() >= start.size() && sameWord(text.substr(0, start.size()), start);
 }
 
 bool isText(std::string_view head) noexcept {
@@ -105,7 +100,7 @@ bool looksLikeTfxmesh(std::span<const std::byte> head) noexcept {
   TextCursor text(head);
   std::string_view word = text.word();
   for (; word.starts_with('#'); word = text.word()) text.skipLine();
-  return word.size() == "numofbones"sv.size() && startsWithoutCase(word, "numofbones"sv);
+  return sameWord(word, "numOfBones"sv);
 }
 
 // FLK_NOT_READY: nothing that is known, and nothing was said.

@@ -63,14 +63,6 @@ struct Section {
   uint64_t count = 0, count_at = 0;
 };
 
-char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool same(std::string_view word, std::string_view key) noexcept {
-  return word.size() == key.size() && std::equal(word.begin(), word.end(), key.begin(), [](char a, char b) { return lower(a) == lower(b); });
-}
-
-int printed(std::string_view word) noexcept { return static_cast<int>(std::min<std::size_t>(word.size(), 40)); }
-
 class Reader {
 public:
   Reader(std::span<const std::byte> bytes, const RigLimits& limits, const Report& report, RigArrays& arrays, Findings& findings) noexcept
@@ -93,8 +85,8 @@ public:
 
 private:
   FlkResult wrong(const char* what, std::string_view word) const {
-    return report_.fail(FLK_ERROR_MALFORMED, "MESH_ROW", "in line %" PRIu64 " (byte %" PRIu64 ") %s should be, but there is \"%.*s\": the file is "
-                        "damaged or its counts are wrong, export it again", rows_.line(), rows_.word_at(), what, printed(word), word.data());
+    return report_.fail(FLK_ERROR_MALFORMED, "MESH_ROW", "in line %" PRIu64 " (byte %" PRIu64 ") %s should be, but there is \"%s\": the file is "
+                        "damaged or its counts are wrong, export it again", rows_.line(), rows_.word_at(), what, Quoted(word).text);
   }
 
   FlkResult truncated(const Section& section, uint64_t row) const {
@@ -111,7 +103,7 @@ private:
       return report_.fail(FLK_ERROR_MALFORMED, "MESH_TRUNCATED", "it ends in line %" PRIu64 " (byte %" PRIu64 "), where %s should be: it is "
                           "truncated, fetch it again", rows_.line(), rows_.at(), what);
     std::string_view word = rows_.word();
-    if (!same(word, section.key)) return wrong(what, word);
+    if (!sameWord(word, section.key)) return wrong(what, word);
     word = rows_.word();
     section.count_at = rows_.word_at();
     int64_t count = 0;
@@ -119,7 +111,7 @@ private:
     if (!TextCursor::parse(word, count) || count < 0) return wrong(what, word);
     section.count = static_cast<uint64_t>(count);
     if (count == 0)
-      return report_.fail(FLK_ERROR_EMPTY_ASSET, same(section.key, "numOfBones"sv) ? "RIG_NO_BONES" : "RIG_NO_RECORDS",
+      return report_.fail(FLK_ERROR_EMPTY_ASSET, sameWord(section.key, "numOfBones"sv) ? "RIG_NO_BONES" : "RIG_NO_RECORDS",
                           "it counts 0 %s (line %" PRIu64 ", byte %" PRIu64 "): there is nothing to load, export it again",
                           section.plural, rows_.line(), section.count_at);
     // The last line may lack its end.

@@ -188,6 +188,7 @@ inline std::unique_ptr<Loaded> load(const Bytes& bytes, const char* name = "seed
     EXPECT_FALSE(error.empty());
     for (const Caught::Message& message : loaded->caught.all) {
       EXPECT_EQ(message.text.rfind(std::string(name) + ": ", 0), 0u) << message.text;
+      EXPECT_TRUE(isSentence(message.text.c_str())) << message.text;
     }
   }
   return loaded;

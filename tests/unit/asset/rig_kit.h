@@ -73,7 +73,8 @@ inline std::unique_ptr<LoadedRig> loadRig(const Bytes& bytes, FlkAsset asset = n
     EXPECT_EQ(rig, nullptr);
     EXPECT_LT(loaded->result, 0);
     EXPECT_FALSE(loaded->caught.error().empty());
-    for (const Caught::Message& message : loaded->caught.all) EXPECT_EQ(message.text.rfind("rig: ", 0), 0u) << message.text;
+    for (const Caught::Message& message : loaded->caught.all)
+      EXPECT_TRUE(message.text.rfind("rig: ", 0) == 0 && isSentence(message.text.c_str())) << message.text;
   }
   return loaded;
 }

@@ -185,7 +185,7 @@ OpenedAsset assetOf(const FlkStrands& strands, const std::string& label) {
   return opened;
 }
 
-OpenedAsset openAsset(const std::string& source, const ProgressFunction& progress) {
+OpenedAsset openAsset(const std::string& source, const ProgressFunction& progress, const OpenOptions& how) {
   const bool is_groom = source.rfind(kGroomPrefix, 0) == 0;
   // Told from its bytes: it may be called .json, as recipes are.
   if (!is_groom && isGltfFile(source)) {
@@ -196,6 +196,7 @@ OpenedAsset openAsset(const std::string& source, const ProgressFunction& progres
   }
   FlkAssetOptions options;
   OpenedAsset opened = prepare(source, options);
+  options.points_per_strand = how.points_per_strand;
   FlkAsset asset = nullptr;
   const FlkResult result = flkAssetLoadFile(source.c_str(), &options, &asset);
   if (result == FLK_ERROR_IO && isName(source) && !fs::exists(source)) {

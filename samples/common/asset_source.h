@@ -63,8 +63,13 @@ std::vector<AssetFinding> findingsOf(const OpenedAsset& opened);
 // Called from any thread with work done and work to do.
 using ProgressFunction = std::function<void(uint64_t done, uint64_t total)>;
 
+// What a file may not say of itself.
+struct OpenOptions {
+  uint32_t points_per_strand = 0;  // of a PLY file of bare points; 0: none
+};
+
 // Opens a strand file (also glTF, whatever it is called), a recipe file (*.json) or groom:NAME. Throws AssetError.
-OpenedAsset openAsset(const std::string& source, const ProgressFunction& progress = {});
+OpenedAsset openAsset(const std::string& source, const ProgressFunction& progress = {}, const OpenOptions& how = {});
 
 // Grows a recipe into an asset. Throws AssetError.
 OpenedAsset growAsset(const Recipe& recipe, const std::string& label, const ProgressFunction& progress = {});

@@ -69,7 +69,8 @@ void readFollow(const nlohmann::json& json, const std::string& path, SceneFollow
 }
 
 void readAsset(const nlohmann::json& json, const std::string& path, SceneAsset& asset) {
-  checkKeys(json, path, {"source", "material", "position", "turn", "scale", "follow", "root_image", "ignore_colors"});
+  checkKeys(json, path, {"source", "material", "position", "turn", "scale", "follow", "root_image", "ignore_colors",
+                         "points_per_strand"});
   KeyReader reader(json, path);
   reader.require("source");
   reader.text("source", asset.source);
@@ -84,6 +85,7 @@ void readAsset(const nlohmann::json& json, const std::string& path, SceneAsset& 
   }
   reader.text("root_image", asset.root_image);
   readFlag(json, reader, "ignore_colors", asset.ignore_colors);
+  reader.integer("points_per_strand", asset.points_per_strand, 2, 65536);
 }
 
 void readCamera(const nlohmann::json& json, SceneCamera& camera) {
@@ -282,6 +284,9 @@ Json assetJson(const SceneAsset& asset) {
   }
   if (!asset.root_image.empty()) {
     json["root_image"] = asset.root_image;
+  }
+  if (asset.points_per_strand > 0) {
+    json["points_per_strand"] = asset.points_per_strand;
   }
   if (asset.ignore_colors) {
     json["ignore_colors"] = true;

@@ -38,6 +38,7 @@ struct SceneAsset {
   double scale = 1.0;
   SceneFollow follow;
   std::string root_image;      // path; empty: none
+  uint32_t points_per_strand = 0;  // of a PLY file of bare points; 0: none
   bool ignore_colors = false;  // leave the asset's vertex colours out
 };
 

@@ -32,6 +32,9 @@ void addPreviewCommand(CLI::App& program, int& exit_code);
 void addPlanCommand(CLI::App& program, int& exit_code);
 void addReportCommand(CLI::App& program, int& exit_code);
 
+// --points-per-strand N, which goes into OpenOptions.
+void addOpenOptions(CLI::App& command, uint32_t& points_per_strand);
+
 // Prints messages of severity warning and error (and info, if asked) to stderr as `forelock: text`.
 void printMessages(const std::vector<AssetMessage>& messages, bool with_info);
 

@@ -13,6 +13,7 @@ namespace {
 
 struct ConvertArguments : ConvertEdits {
   std::string in, out;
+  uint32_t points_per_strand = 0;
   bool strict = false;
 };
 
@@ -28,6 +29,7 @@ constexpr const char* kExamples =
     "  forelock convert guides.tfx full.ply --interpolate 30000 --width 0.08 --width-profile 0:1,0.7:0.9,1:0.1\n"
     "  forelock convert full.ply far.ply --keep 12.5%   an eighth of the strands, eight times as wide\n"
     "  forelock convert pony.tfx pony.ply --root-image scalp.png --flip-v\n"
+    "  forelock convert points.ply hair.ply --points-per-strand 100   bare points, as NeuralHaircut writes them\n"
     "  forelock convert --strict pony.hair pony.tfx     fail, and write nothing, if anything is lost\n";
 
 bool saysDropped(const AssetMessage& message) { return message.id.rfind("WRITE_DROPS_", 0) == 0; }
@@ -39,7 +41,8 @@ int runConvert(const ConvertArguments& arguments) {
   OpenedAsset opened;
   {
     Progress progress("opening " + arguments.in);
-    opened = openAsset(arguments.in, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+    opened = openAsset(arguments.in, [&](uint64_t done, uint64_t total) { progress.update(done, total); },
+                       {arguments.points_per_strand});
   }
   printMessages(*opened.messages, false);
   if (arguments.any()) applyEdits(opened, arguments);
@@ -76,6 +79,7 @@ void addConvertCommand(CLI::App& program, int& exit_code) {
   command->add_option("OUT", arguments->out, "The file to write: " + writableExtensions())->required();
   command->add_flag("--strict", arguments->strict, "Fail instead of leaving out what the target cannot hold");
   addConvertEdits(*command, *arguments);
+  addOpenOptions(*command, arguments->points_per_strand);
   command->footer(kExamples);
   command->callback([arguments, &exit_code] { exit_code = runConvert(*arguments); });
 }

@@ -3,12 +3,14 @@
 #include "inspect_batch.h"
 #include "inspect_report.h"
 #include "progress.h"
+#include "rig_report.h"
 #include "strand_formats.h"
 #include "strand_edit.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 namespace forelock::samples {
@@ -19,8 +21,9 @@ namespace fs = std::filesystem;
 
 struct InspectArguments {
   std::vector<std::string> assets;
-  std::string csv, repair;
+  std::string bones, csv, repair;
   std::vector<std::string> repair_only, repair_also;
+  uint32_t points_per_strand = 0;
   bool json = false;
   bool strict = false;
   bool overwrite = false;
@@ -32,14 +35,17 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  forelock inspect pony.tfx\n"
     "  forelock inspect groom:long-wavy --json\n"
+    "  forelock inspect head.tfxbone                         bones and weights; head.tfxmesh: the collision mesh\n"
+    "  forelock inspect pony.tfx --bones pony.tfxbone        do both belong together?\n"
+    "  forelock inspect points.ply --points-per-strand 100   a PLY file of bare points, as NeuralHaircut writes them\n"
     "  forelock inspect grooms/ --csv grooms.csv             a line a file; one that cannot be read does not stop the rest\n"
     "  forelock inspect --strict pony.hair && echo clean     exit status 1 on any warning or error\n"
     "  forelock inspect pony.hair --repair mended.hair       copies and stray strands go; every change is listed\n"
     "  forelock inspect pony.hair --repair turned.hair --repair-only ROOT_AT_TIP\n";
 
-OpenedAsset open(const std::string& source) {
+OpenedAsset open(const std::string& source, uint32_t points_per_strand) {
   Progress progress("opening " + source);
-  return openAsset(source, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+  return openAsset(source, [&](uint64_t done, uint64_t total) { progress.update(done, total); }, {points_per_strand});
 }
 
 std::vector<std::string> wantedRepairs(const InspectArguments& arguments) {
@@ -93,11 +99,21 @@ void printWritten(const Written& written, const std::string& path) {
 }
 
 int inspectOne(const InspectArguments& arguments) {
-  const OpenedAsset opened = open(arguments.assets[0]);
+  if (arguments.bones.empty() && arguments.repair.empty()) {
+    if (const std::optional<int> done = inspectIfRig(arguments.assets[0], arguments.json, arguments.strict)) return *done;
+  }
+  const OpenedAsset opened = open(arguments.assets[0], arguments.points_per_strand);
+  std::optional<OpenedRig> rig;
+  if (!arguments.bones.empty()) rig = openRig(arguments.bones, opened.asset.get());
   const Inspected seen = inspectAsset(opened);
   nlohmann::ordered_json json;
-  if (arguments.json) json = inspectedJson(seen);
-  else printInspected(seen);
+  if (arguments.json) {
+    json = inspectedJson(seen);
+    if (rig) json["rig"] = rigJson(*rig);
+  } else {
+    printInspected(seen);
+    if (rig) printRig(*rig);
+  }
   if (!arguments.repair.empty()) {
     const Written written = writeRepaired(opened, seen, arguments);
     printMessages(written.said, true);
@@ -114,12 +130,14 @@ int inspectOne(const InspectArguments& arguments) {
     alone.files.push_back({arguments.assets[0], "", seen});
     writeCsv(alone, arguments.csv);
   }
-  return arguments.strict && seen.count(FLK_SEVERITY_WARNING) + seen.count(FLK_SEVERITY_ERROR) > 0 ? kFailed : kDone;
+  const bool clean = seen.count(FLK_SEVERITY_WARNING) + seen.count(FLK_SEVERITY_ERROR) == 0 && (!rig || rig->clean());
+  return arguments.strict && !clean ? kFailed : kDone;
 }
 
 int inspectMany(const InspectArguments& arguments) {
   if (!arguments.repair.empty()) throw UsageError("--repair takes one asset, not several or a folder; repair them one by one");
-  const InspectedFiles all = inspectFiles(arguments.assets, open);
+  if (!arguments.bones.empty()) throw UsageError("--bones belongs to one asset, not to several or a folder");
+  const InspectedFiles all = inspectFiles(arguments.assets, [&](const std::string& source) { return open(source, arguments.points_per_strand); });
   if (arguments.json) printJsonText(filesJson(all));
   else printTable(all);
   if (all.files.empty()) std::fprintf(stderr, "forelock: %s: no strand file is in it\n", arguments.assets[0].c_str());
@@ -154,7 +172,9 @@ std::string repairHelp() {
 void addInspectCommand(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("inspect", "Say what is in an asset, and what is wrong with it.");
   auto arguments = std::make_shared<InspectArguments>();
-  command->add_option("ASSET", arguments->assets, "Strand files, recipes, groom:NAME, or folders; of several a table")->required();
+  command->add_option("ASSET", arguments->assets, "Strand files, recipes, groom:NAME, or folders; of several a table. Or a rig: .tfxbone, .tfxmesh")->required();
+  command->add_option("--bones", arguments->bones, "The hair's .tfxbone file, to be checked with it")->type_name("FILE");
+  addOpenOptions(*command, arguments->points_per_strand);
   command->add_flag("--json", arguments->json, "Print JSON for programs");
   command->add_flag("--strict", arguments->strict, "Exit with 1 if there is any finding of severity warning or error");
   command->add_option("--csv", arguments->csv, "Write a line a file, for a spreadsheet")->type_name("OUT.csv");

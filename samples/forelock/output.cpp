@@ -5,6 +5,11 @@
 
 namespace forelock::samples {
 
+void addOpenOptions(CLI::App& command, uint32_t& points_per_strand) {
+  command.add_option("--points-per-strand", points_per_strand, "Of a PLY file of bare points: how many make a strand")
+      ->check(CLI::Range(2u, 65'536u))->type_name("N");
+}
+
 void printMessages(const std::vector<AssetMessage>& messages, bool with_info) {
   for (const AssetMessage& message : messages) {
     if (with_info || message.severity != FLK_SEVERITY_INFO) {

@@ -61,6 +61,7 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
       ->type_name("FILE.json");
   command.add_option("--size", arguments.size, "Of the picture in pixels [1024x1024, or the stored camera's]")
       ->type_name("WxH");
+  addOpenOptions(command, arguments.points_per_strand);
 
   const char* camera = "Camera";
   command.add_option("--azimuth", arguments.azimuth, "Degrees from the front to the hair's left [32]")
@@ -167,6 +168,7 @@ Scene makeScene(const CLI::App& command, const SceneArguments& arguments) {
     }
     if (asked("--follow")) asset.follow.count = arguments.follow;
     if (asked("--alpha")) asset.material.opacity_root = asset.material.opacity_tip = static_cast<float>(arguments.alpha);
+    if (asked("--points-per-strand")) asset.points_per_strand = arguments.points_per_strand;
     if (asked("--width")) asset.width_mm = arguments.width_mm;
   }
   if (asked("--light")) turnLight(arguments.light, scene);

@@ -145,7 +145,8 @@ Stage openStage(const Scene& scene) {
     StagedAsset& asset = stage.assets.emplace_back();
     {
       Progress progress("opening " + wanted.source);
-      asset.opened = openAsset(wanted.source, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+      asset.opened = openAsset(wanted.source, [&](uint64_t done, uint64_t total) { progress.update(done, total); },
+                               {wanted.points_per_strand});
     }
     printMessages(*asset.opened.messages, false);
     flkAssetGetInfo(asset.opened.asset.get(), &asset.info);

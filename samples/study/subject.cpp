@@ -94,7 +94,8 @@ Subject openSubject(const Options& options) {
     SubjectAsset& asset = subject.assets.emplace_back();
     {
       Progress progress("opening " + wanted.source);
-      asset.opened = openAsset(wanted.source, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+      asset.opened = openAsset(wanted.source, [&](uint64_t done, uint64_t total) { progress.update(done, total); },
+                               {wanted.points_per_strand});
     }
     for (const AssetMessage& message : *asset.opened.messages)
       if (message.severity != FLK_SEVERITY_INFO) std::fprintf(stderr, "forelock-study: %s\n", message.text.c_str());

@@ -11,7 +11,7 @@ trap 'rm -f "$rooms" "$found"' EXIT
 # room, a space, extended regular expression of the paths it may include. The first room that holds a file counts.
 # "vulkan" stands for any Vulkan header, "generated" for a header that the build writes. System headers are free.
 common='sdk/src/host/.*|sdk/include/forelock/forelock\.h'
-cpu="$common|sdk/include/forelock/asset\.h"
+cpu="$common|sdk/include/forelock/(asset|rig)\.h"
 public='sdk/include/forelock/.*'
 cat >"$rooms" <<RULES
 sdk/include/ $public|vulkan

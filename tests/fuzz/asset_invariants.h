@@ -11,6 +11,23 @@
 
 namespace asset_test {
 
+// Whether all of `text` decodes as UTF-8 without control characters: sentences are shown to people and written into JSON.
+inline bool isSentence(const char* text) {
+  for (const auto* at = reinterpret_cast<const unsigned char*>(text); *at;) {
+    const int more = *at < 0x80 ? 0 : *at >> 5 == 6 ? 1 : *at >> 4 == 14 ? 2 : *at >> 3 == 30 ? 3 : -1;
+    if (more < 0 || *at < 0x20) return false;
+    uint32_t character = more == 0 ? *at : *at & (0x3fu >> more);
+    for (int i = 1; i <= more; ++i) {
+      if (at[i] >> 6 != 2) return false;
+      character = character << 6 | (at[i] & 0x3fu);
+    }
+    constexpr uint32_t least[] = {0, 0x80, 0x800, 0x10000};
+    if (character < least[more] || character > 0x10ffff || (character >= 0xd800 && character < 0xe000)) return false;
+    at += more + 1;
+  }
+  return true;
+}
+
 // The first promise that is broken; nullptr if none is.
 inline const char* brokenPromise(FlkAsset asset) {
   FlkAssetInfo info;

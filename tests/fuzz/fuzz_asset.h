@@ -21,16 +21,18 @@ struct FuzzMessages {
     static_cast<FuzzMessages*>(user)->errors += message->severity == FLK_SEVERITY_ERROR;
     require(std::strncmp(message->text, "fuzzed: ", 8) == 0 && message->text[8], "a message names the file");
     require(message->id && *message->id, "a message has an id");
+    require(isSentence(message->text), "a message is UTF-8");
   }
 };
 
-inline void fuzzAsset(const unsigned char* bytes, size_t size) {
+inline void fuzzAsset(const unsigned char* bytes, size_t size, uint32_t points_per_strand = 0) {
   FuzzMessages messages;
   FlkAssetOptions options{};
   options.type = FLK_TYPE_ASSET_OPTIONS;
   options.message = FuzzMessages::receive;
   options.message_user = &messages;
   options.name = "fuzzed";
+  options.points_per_strand = points_per_strand;
   FlkAsset asset = nullptr;
   const FlkResult result = flkAssetLoadMemory(bytes, size, &options, &asset);
   require((result == FLK_SUCCESS) == (asset != nullptr), "an asset on success only");

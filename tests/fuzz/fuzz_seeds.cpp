@@ -1,7 +1,8 @@
-// fuzz_seeds tfx|hair|text|data|ply|cooked|gltf FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by
+// fuzz_seeds tfx|hair|text|data|ply|cooked|bone|mesh|gltf FOLDER: a few small files to start from, written by the SDK itself, with extra arrays added by
 // hand; what the SDK does not write, by hand altogether.
 #include "asset_invariants.h"
 #include "gltf_files.h"
+#include "rig_files.h"
 #include "text_files.h"
 
 #include <cstdio>
@@ -91,12 +92,26 @@ int main(int argc, char** argv) {
                          put(folder / "quantised", glb(R"([{"attributes":{"POSITION":2,"COLOR_0":2},"mode":1}])")) && put(folder / "text", bytesOf(text));
     return written ? 0 : 1;
   }
+  if (kind == "mesh") {
+    // As the target sets its first bytes.
+    const std::string text = asset_test::smallTfxmesh();
+    return put(folder / "mesh", bytesOf(text.substr(text.find("numOfBones")))) ? 0 : 1;
+  }
+  if (kind == "bone") {
+    std::vector<unsigned char> odd = asset_test::smallTfxbone();
+    setU32(odd, 53, 0xffffffff);                    // a bone of -1
+    setU32(odd, 49 + 36 + 8, 0x3e4ccccd);           // weights that make 0.7
+    odd.resize(odd.size() + 3);
+    return put(folder / "skin", asset_test::smallTfxbone()) && put(folder / "odd", odd) ? 0 : 1;
+  }
   if (kind == "ply") {
     FlkAsset asset = makeAsset(false);
     FlkResult result = FLK_SUCCESS;
     const std::vector<unsigned char> bytes = asset_test::saved(asset, FLK_FORMAT_PLY, result);
     flkAssetDestroy(asset);
-    return result == FLK_SUCCESS && put(folder / "ascii", bytesOf(asset_test::smallPlyText())) && put(folder / "written", bytes) ? 0 : 1;
+    const std::string points = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+                               "0 0 0\n0 1 0\n1 0 0\n1 1 0\n";
+    return result == FLK_SUCCESS && put(folder / "points", bytesOf(points)) && put(folder / "ascii", bytesOf(asset_test::smallPlyText())) && put(folder / "written", bytes) ? 0 : 1;
   }
   if (kind == "cooked") {
     // One with every array, one with findings.

@@ -43,6 +43,8 @@ typedef struct FlkAssetOptions {
   uint32_t max_strands;              /* optional: 0 is the limit of FlkStrands */
   uint32_t max_vertices;             /* optional: 0 is the limit of FlkStrands */
   uint32_t flags;                    /* optional: FLK_ASSET_... */
+  uint32_t points_per_strand;        /* optional, [2, ...]: of a PLY file that has vertices and nothing that says which make
+                                        a strand, so many after each other do; 0: such a file is refused. Other files: no effect */
 } FlkAssetOptions;
 
 enum {
@@ -70,7 +72,8 @@ enum {
   FLK_FORMAT_HAIR = 2,  /* Cem Yuksel's .hair: thickness (read and written as the diameter), colour; no UV, no mass */
   FLK_FORMAT_TFX_TEXT = 3,    /* TressFX 1 and 2, text, only read: root UV, inverse mass as TressFX implies it */
   FLK_FORMAT_STRAND_DATA = 4, /* USC-HairSalon (.data) and CT2Hair (.bin), only read: positions */
-  FLK_FORMAT_PLY = 5,   /* PLY with an element strand, read and written: everything that an asset holds */
+  FLK_FORMAT_PLY = 5,   /* PLY with an element strand, read and written: everything that an asset holds; bare points
+                           are read with FlkAssetOptions.points_per_strand */
   FLK_FORMAT_COOKED = 6 /* Forelock's own cache (.flk): everything that an asset holds and knows, findings included, as it lies in
                            memory. Read by the version that wrote it; cook it again from the source after an update */
 };

@@ -15,6 +15,7 @@
 #define FORELOCK_FORELOCK_HPP
 
 #include "render.h"
+#include "rig.h"
 
 #include <utility>
 
@@ -50,6 +51,7 @@ private:
 };
 
 using Asset = Owner<FlkAsset, flkAssetDestroy>;
+using Rig = Owner<FlkRig, flkRigDestroy>;
 using Context = Owner<FlkContext, flkContextDestroy>;
 using Hair = Owner<FlkHair, flkHairDestroy>;
 using View = Owner<FlkView, flkViewDestroy>;
@@ -64,6 +66,7 @@ template <class Desc> Desc tagged(uint32_t type) noexcept {
 }  // namespace detail
 inline FlkStrands strandsDesc() noexcept { return detail::tagged<FlkStrands>(FLK_TYPE_STRANDS); }
 inline FlkAssetOptions assetOptions() noexcept { return detail::tagged<FlkAssetOptions>(FLK_TYPE_ASSET_OPTIONS); }
+inline FlkRigOptions rigOptions() noexcept { return detail::tagged<FlkRigOptions>(FLK_TYPE_RIG_OPTIONS); }
 inline FlkContextDesc contextDesc() noexcept { return detail::tagged<FlkContextDesc>(FLK_TYPE_CONTEXT); }
 inline FlkHairDesc hairDesc() noexcept { return detail::tagged<FlkHairDesc>(FLK_TYPE_HAIR); }
 inline FlkViewDesc viewDesc() noexcept { return detail::tagged<FlkViewDesc>(FLK_TYPE_VIEW); }
@@ -87,6 +90,12 @@ inline FlkResult load(const char* path, const FlkAssetOptions* options, Asset& o
 }
 inline FlkResult load(const void* bytes, size_t size, const FlkAssetOptions* options, Asset& owner) noexcept {
   return detail::make(owner, [&](FlkAsset* asset) { return flkAssetLoadMemory(bytes, size, options, asset); });
+}
+inline FlkResult load(const char* path, const FlkRigOptions* options, Rig& owner) noexcept {
+  return detail::make(owner, [&](FlkRig* rig) { return flkRigLoadFile(path, options, rig); });
+}
+inline FlkResult load(const void* bytes, size_t size, const FlkRigOptions* options, Rig& owner) noexcept {
+  return detail::make(owner, [&](FlkRig* rig) { return flkRigLoadMemory(bytes, size, options, rig); });
 }
 inline FlkResult create(const FlkContextDesc& desc, Context& owner) noexcept {
   return detail::make(owner, [&](FlkContext* context) { return flkContextCreate(&desc, context); });

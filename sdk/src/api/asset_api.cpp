@@ -1,10 +1,11 @@
 #include "forelock/asset.h"
 
 #include "api/boundary.h"
+#include "api/load_call.h"
+#include "asset/file_io.h"
 #include "asset/loaded_asset.h"
 #include "asset/sniff.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cinttypes>
 
@@ -12,45 +13,24 @@ using namespace forelock;
 
 namespace {
 
-FlkResult invalid(const Report& report, const char* what) {
-  return report.fail(FLK_ERROR_INVALID_ARGUMENT, "INVALID_ARGUMENT", "%s", what);
-}
-
-uint32_t limitOr(uint32_t asked, uint32_t largest) { return asked == 0 ? largest : std::min(asked, largest); }
-
-// Checks the options of a call, says what is wrong with them, and runs `body(settings, asset)`.
+// Runs `body(settings, report, asset)` with the options of a call.
 template <class Body>
 FlkResult makeWith(const FlkAssetOptions* options, const char* default_name, FlkAsset* asset, Body&& body) noexcept {
-  if (asset) *asset = nullptr;
-  const FlkAssetOptions none{FLK_TYPE_ASSET_OPTIONS, nullptr, nullptr, nullptr, nullptr, nullptr, 0, 0, 0};
-  if (!options) options = &none;
-  // Of a struct that is not what it should be nothing is used, its callback least of all.
-  if (options->type != FLK_TYPE_ASSET_OPTIONS) return FLK_ERROR_INVALID_ARGUMENT;
-
-  const char* name = options->name ? options->name : default_name ? default_name : "asset";
-  AssetSettings settings{HostMemory(nullptr), Messages(options->message, options->message_user), name,
-                         {limitOr(options->max_strands, limit_strands), limitOr(options->max_vertices, limit_vertices)},
-                         (options->flags & FLK_ASSET_COPY_FILE) != 0};
-  const Report report(settings.messages, settings.name);
-  if (options->next) return invalid(report, "FlkAssetOptions.next is reserved and has to be NULL");
-  if (options->flags & ~uint32_t{FLK_ASSET_COPY_FILE})
-    return invalid(report, "FlkAssetOptions.flags has bits that are no FLK_ASSET_... flag: set it to 0");
-  if (!HostMemory::valid(options->allocator))
-    return invalid(report, "FlkHostAllocator has one function of two: give allocate and free, or neither");
-  if (!asset) return invalid(report, "the place for the new asset is NULL");
-  settings.memory = HostMemory(options->allocator);
-
-  AssetPointer made;
-  const FlkResult result = guarded([&] { return body(settings, report, made); });
-  if (result == FLK_ERROR_OUT_OF_HOST_MEMORY)
-    return report.fail(result, "OUT_OF_HOST_MEMORY", "the host's allocator refused memory: nothing was loaded");
-  if (result == FLK_SUCCESS) *asset = made.release();
-  return result;
+  constexpr LoadCall call{FLK_TYPE_ASSET_OPTIONS, "FlkAssetOptions", "asset"};
+  return loadWith<AssetPointer>(call, options, default_name, asset, [&](const FlkAssetOptions& given, const LoadBase& base, const Report& report, AssetPointer& made) {
+    if (given.points_per_strand == 1) return invalid(report, "FlkAssetOptions.points_per_strand is 1: a strand has two or more points, and 0 is none");
+    if (given.flags & ~uint32_t{FLK_ASSET_COPY_FILE})
+      return invalid(report, "FlkAssetOptions.flags has bits that are no FLK_ASSET_... flag: set it to 0");
+    const AssetSettings settings{base.memory, base.messages, base.name,
+                                 {limitOr(given.max_strands, limit_strands), limitOr(given.max_vertices, limit_vertices), given.points_per_strand},
+                                 (given.flags & FLK_ASSET_COPY_FILE) != 0};
+    return body(settings, report, made);
+  });
 }
 
 FlkResult acceptHead(std::span<const std::byte> head, const Report& report) {
   uint32_t format = FLK_FORMAT_UNKNOWN;
-  return sniffFormat(head, report, format);
+  return sniffStrands(head, report, format);
 }
 
 }  // namespace

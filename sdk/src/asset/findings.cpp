@@ -14,6 +14,7 @@ struct Meaning {
   uint32_t repaired;
   const char* what;
   const char* advice;
+  const char* noun = nullptr;  // what its numbers count, if always the same
 };
 
 constexpr uint32_t info = FLK_SEVERITY_INFO;
@@ -88,6 +89,29 @@ constexpr Meaning meanings[] = {
     {"ROOT_NOT_PINNED", info, 0, "strands are pinned at neither end, so that they would fall", "export 0 for their roots"},
     {"HAIR_DEFAULT_THICKNESS_ZERO", info, 0, "the header's default thickness is 0; the thickness of each point is used", "nothing, if the hair looks right"},
     {"WIDTH_DEFAULTED", info, 0, "no widths in the source, a default is used", "give radii or set a width on the hair"},
+    {"BONE_NAME_EMPTY", warning, 0, "bones have no name, so that no look-up finds them", "name the joints and export again", "bone"},
+    {"BONE_NAME_DUPLICATE", warning, 0, "bones have the name of a bone before them", "rename the joints", "bone"},
+    {"BONE_NAME_UNTERMINATED", warning, 0, "bone names lack the NUL at their end, without which AMD's loader reads on; they were taken whole",
+     "correct the exporter: the length counts the NUL", "bone"},
+    {"BONE_NAME_CUT", warning, 1, "bone names have a NUL before their end; what follows it was left out", "export again", "bone"},
+    {"BONE_NAME_LONG", warning, 0, "bone names are longer than the 127 bytes that AMD's loader has room for; they were kept",
+     "shorten them if the file is for TressFX itself", "bone"},
+    {"RIG_INDEX_UNEXPECTED", warning, 0, "entries of the file are not numbered 0, 1, 2 in order; their order in the file counts",
+     "check that they were not sorted or cut by hand"},
+    {"BONE_OUT_OF_RANGE", warning, 1, "weights of bones that the file does not have were taken as 0", "export again with all bones that the skin uses"},
+    {"WEIGHT_INVALID", warning, 1, "weights that are negative, NaN or infinite were taken as 0", "correct the skin weights and export again"},
+    {"WEIGHTS_ALL_ZERO", warning, 0, "entries have no weight above 0 and hang on nothing", "bind them to a bone and export again"},
+    {"WEIGHTS_NOT_NORMALISED", warning, 1, "weights do not make 1 and were scaled", "export with normalised weights"},
+    {"SKIN_STRANDS_SURPLUS", warning, 1, "records are of strands that the hair does not have", "export both files together"},
+    {"SKIN_STRANDS_MISSING", warning, 0, "strands of the hair have no record", "export both files together"},
+    {"SKIN_STRANDS_DROPPED", info, 1, "records of strands that the hair dropped while it was loaded were left out", "nothing, see the findings of the hair"},
+    {"MESH_POSITION_INVALID", warning, 1, "vertices with a coordinate that is NaN, infinite or beyond 1e6 lost their triangles and lie at the origin",
+     "export them again"},
+    {"MESH_NORMAL_INVALID", warning, 1, "normals that are NaN, infinite or 0 were taken as none (0, 0, 0)", "recompute the normals and export again"},
+    {"TRIANGLE_OUT_OF_RANGE", warning, 1, "triangles with a vertex that does not exist were dropped", "export the mesh again", "triangle"},
+    {"TRIANGLE_DEGENERATE", warning, 1, "triangles that name a vertex twice were dropped", "clean the mesh and export it again", "triangle"},
+    {"BONE_PLACEHOLDER", info, 1, "bones of -1 without weight, an exporter's word for none, became bone 0 without weight", "nothing"},
+    {"SKIN_RECORDS_UNALIGNED", info, 0, "records do not start at a multiple of 4 bytes", "nothing: names are not padded in this format"},
 };
 static_assert(std::size(meanings) == static_cast<std::size_t>(FindingKind::kinds));
 
@@ -120,11 +144,12 @@ void Findings::finish() {
     if (slot.count == 0) continue;
     const Meaning& meaning = meanings[kind];
 
+    const char* noun = meaning.noun ? meaning.noun : noun_;
     char where[96] = "";
     if (slot.strands_listed != 0 && slot.byte != no_byte)
-      std::snprintf(where, sizeof where, ", the first in strand %" PRIu32 " at byte %" PRIu64, slot.strands[0], slot.byte);
+      std::snprintf(where, sizeof where, ", the first in %s %" PRIu32 " at byte %" PRIu64, noun, slot.strands[0], slot.byte);
     else if (slot.strands_listed != 0)
-      std::snprintf(where, sizeof where, ", the first in strand %" PRIu32, slot.strands[0]);
+      std::snprintf(where, sizeof where, ", the first in %s %" PRIu32, noun, slot.strands[0]);
     else if (slot.byte != no_byte)
       std::snprintf(where, sizeof where, ", from byte %" PRIu64, slot.byte);
 

@@ -1,4 +1,4 @@
-// What is worth knowing about an asset, collected while it is read. Collecting needs no memory, so a file with a defect
+// What is worth knowing about an asset or a rig, collected while it is read. Collecting needs no memory, so a file with a defect
 // in every vertex costs no more than one with a single defect; sentences are made once, at the end.
 #pragma once
 
@@ -63,6 +63,26 @@ enum class FindingKind : uint32_t {
   root_not_pinned,
   hair_default_thickness_zero,
   width_defaulted,
+  // Of rigs.
+  bone_name_empty,
+  bone_name_duplicate,
+  bone_name_unterminated,
+  bone_name_cut,
+  bone_name_long,
+  rig_index_unexpected,
+  bone_out_of_range,
+  weight_invalid,
+  weights_all_zero,
+  weights_not_normalised,
+  skin_strands_surplus,
+  skin_strands_missing,
+  skin_strands_dropped,
+  mesh_position_invalid,
+  mesh_normal_invalid,
+  triangle_out_of_range,
+  triangle_degenerate,
+  bone_placeholder,
+  skin_records_unaligned,
   kinds
 };
 
@@ -70,10 +90,13 @@ class Findings {
 public:
   explicit Findings(std::pmr::memory_resource* memory) : list_(memory) {}
 
+  // What the numbers of findings count where the kind does not say; strands unless told.
+  void countIn(const char* noun) noexcept { noun_ = noun; }
+
   // `strand` is numbered as in the source; no_strand where the finding is about the file. Keeps the first byte told.
   void note(FindingKind kind, uint32_t strand, uint64_t byte, uint64_t times = 1) noexcept;
 
-  // A sentence of its own for this kind in place of the table's, for one that names values. At most eight kinds.
+  // A sentence of its own for this kind in place of the table's, for one that names values. At most ten kinds.
   void describe(FindingKind kind, const char* format, ...) noexcept __attribute__((format(printf, 3, 4)));
 
   uint64_t count(FindingKind kind) const noexcept { return slots_[static_cast<std::size_t>(kind)].count; }
@@ -109,8 +132,9 @@ private:
   };
 
   std::array<Slot, static_cast<std::size_t>(FindingKind::kinds)> slots_;
-  std::array<Description, 8> descriptions_;
+  std::array<Description, 10> descriptions_;
   std::pmr::vector<Entry> list_;
+  const char* noun_ = "strand";
 };
 
 }  // namespace forelock

@@ -29,7 +29,7 @@ void settleAsset(FlkAsset_T& asset) noexcept {
   asset.info.bytes_mapped = asset.file.bytes().size();
   asset.info.bytes_host = sizeof(FlkAsset_T) + asset.name.capacity() + bytes(arrays.first_vertex) + bytes(arrays.positions) +
                           bytes(arrays.radii) + bytes(arrays.root_uvs) + bytes(arrays.inverse_masses) + bytes(arrays.colors) +
-                          asset.findings.bytes();
+                          bytes(arrays.dropped_strands) + asset.findings.bytes();
 }
 
 // The last steps, the same for every source but a cooked one.
@@ -88,7 +88,7 @@ FlkResult makeAsset(const FlkStrands& strands, const AssetSettings& settings, As
 FlkResult readAsset(std::span<const std::byte> bytes, Mapping* mapping, const AssetSettings& settings, AssetPointer& asset) {
   const Report report(settings.messages, settings.name);
   uint32_t format = FLK_FORMAT_UNKNOWN;
-  FlkResult result = sniffFormat(bytes, report, format);
+  FlkResult result = sniffStrands(bytes, report, format);
   if (result != FLK_SUCCESS) return result;
   AssetPointer made = newAsset(settings);
   if (format == FLK_FORMAT_COOKED) {

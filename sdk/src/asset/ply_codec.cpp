@@ -1,6 +1,6 @@
 // PLY (Turk 1994) with strands, as hairutil writes it: element vertex (x y z; red green blue, thickness where present), element strand
 // (nsegs: segments of the strand, which has one point more), vertices in the order of strands. Forelock adds u v to strands and
-// inverse_mass to vertices, and writes the segments once more as element edge, so that any viewer of PLY files shows lines.
+// inverse_mass to vertices, reads bare points where the caller says how many make a strand (as NeuralHaircut writes them), and writes the segments once more as element edge, so that any viewer of PLY files shows lines.
 // ascii, binary_little_endian and binary_big_endian are read; binary_little_endian is written. Thickness is the diameter.
 #include "asset/codec.h"
 #include "asset/text_cursor.h"
@@ -87,11 +87,9 @@ struct Header {
   }
 };
 
-int printed(std::string_view word) noexcept { return static_cast<int>(word.size() < 40 ? word.size() : 40); }
-
 FlkResult badHeader(const Report& report, const TextCursor& text, const char* what, std::string_view word) {
-  return report.fail(FLK_ERROR_MALFORMED, "PLY_HEADER", "in line %" PRIu64 " of the header (byte %" PRIu64 ") %s, but there is \"%.*s\": "
-                     "the header is damaged or truncated, export it again", text.line(), text.word_at(), what, printed(word), word.data());
+  return report.fail(FLK_ERROR_MALFORMED, "PLY_HEADER", "in line %" PRIu64 " of the header (byte %" PRIu64 ") %s, but there is \"%s\": "
+                     "the header is damaged or truncated, export it again", text.line(), text.word_at(), what, Quoted(word).text);
 }
 
 FlkResult readHeader(std::span<const std::byte> bytes, const Report& report, Header& header) {
@@ -225,42 +223,56 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
   if (!vertices || !header.find(*vertices, x) || !header.find(*vertices, y) || !header.find(*vertices, z))
     return report.fail(FLK_ERROR_MALFORMED, "PLY_NO_POSITIONS", "it has no element vertex with x, y and z in its header (to byte %" PRIu64
                        "): there is nothing to load, export it again", header.end);
-  if (!strands || !header.find(*strands, segments)) {
+  uint64_t strand_count = 0, strand_count_at = vertices->count_at;
+  if (strands && header.find(*strands, segments)) {
+    strand_count = strands->count, strand_count_at = strands->count_at;
+  } else {
+    strands = nullptr;
     const Element* faces = header.find(Kind::face);
     if (faces && faces->count != 0)
       return report.fail(FLK_ERROR_FORMAT_UNKNOWN, "PLY_MESH", "it is a mesh of %" PRIu64 " faces (byte %" PRIu64
                          "), not hair: give strands; a mesh can be the head beside them", faces->count, faces->count_at);
-    return report.fail(FLK_ERROR_FORMAT_UNKNOWN, "PLY_NO_STRANDS", "it has %" PRIu64 " points (byte %" PRIu64
-                       ") and no element strand with nsegs, so that nothing says which points make a strand: export it with strands",
-                       vertices->count, vertices->count_at);
+    const uint64_t points = limits.points_per_strand;
+    if (points == 0)
+      return report.fail(FLK_ERROR_FORMAT_UNKNOWN, "PLY_NO_STRANDS", "it has %" PRIu64 " points (byte %" PRIu64
+                         ") and no element strand with nsegs, so that nothing says which points make a strand: if each has as many, say how many "
+                         "(FlkAssetOptions.points_per_strand, --points-per-strand N), or export it with strands",
+                         vertices->count, vertices->count_at);
+    if (vertices->count % points != 0)
+      return report.fail(FLK_ERROR_MALFORMED, "PLY_POINTS_DISAGREE", "its %" PRIu64 " points (byte %" PRIu64 ") make %" PRIu64
+                         " strands of points_per_strand = %" PRIu64 " and leave %" PRIu64 " over: give the number that it was exported with",
+                         vertices->count, vertices->count_at, vertices->count / points, points, vertices->count % points);
+    strand_count = vertices->count / points;
   }
-  if (strands->count == 0 || vertices->count == 0)
+  if (strand_count == 0 || vertices->count == 0)
     return report.fail(FLK_ERROR_EMPTY_ASSET, "PLY_EMPTY", "it counts %" PRIu64 " strands (byte %" PRIu64 ") and %" PRIu64 " vertices (byte %" PRIu64
-                       "): there is nothing to load, export it again", strands->count, strands->count_at, vertices->count, vertices->count_at);
+                       "): there is nothing to load, export it again", strand_count, strand_count_at, vertices->count, vertices->count_at);
   // Whatever is read, is proven against the bytes first: all records together, then (with lists) each one.
   uint64_t least = 0;
   for (std::size_t i = 0; i < header.element_count; ++i)
     least = saturatingSum(least, saturatingProduct(header.elements[i].count, recordSize(header, header.elements[i])));
   if (least > bytes.size() - header.end + (header.ascii ? 1 : 0))  // the last line may lack its end
     return pastEnd(report, "vertices and other records", vertices->count, vertices->count_at, header.end, bytes.size());
-  if (strands->count > limits.strands || vertices->count > limits.vertices)
+  if (strand_count > limits.strands || vertices->count > limits.vertices)
     return report.fail(FLK_ERROR_LIMIT, "PLY_TOO_LARGE", "it holds %" PRIu64 " strands (byte %" PRIu64 ") and %" PRIu64 " vertices (byte %" PRIu64
                        "), beyond the limit of %" PRIu32 " and %" PRIu32 ": split it or raise the limit",
-                       strands->count, strands->count_at, vertices->count, vertices->count_at, limits.strands, limits.vertices);
+                       strand_count, strand_count_at, vertices->count, vertices->count_at, limits.strands, limits.vertices);
 
   const auto has = [&](const Element& element, Use use) { return header.find(element, use) != nullptr; };
   const bool has_color = has(*vertices, red) && has(*vertices, green) && has(*vertices, blue);
-  const bool has_uv = has(*strands, u) && has(*strands, v);
+  const bool has_uv = strands && has(*strands, u) && has(*strands, v);
   arrays.positions.resize(vertices->count * 3);
   if (has(*vertices, thickness)) arrays.radii.resize(vertices->count);
   if (has(*vertices, inverse_mass)) arrays.inverse_masses.resize(vertices->count);
   if (has_color) arrays.colors.resize(vertices->count * 3);
-  if (has_uv) arrays.root_uvs.resize(strands->count * 2);
-  arrays.first_vertex.resize(strands->count + 1);
+  if (has_uv) arrays.root_uvs.resize(strand_count * 2);
+  arrays.first_vertex.resize(strand_count + 1);
   if (header.alpha) findings.note(FindingKind::ply_alpha_ignored, no_strand, no_byte);
 
   Values values(bytes, header);
-  uint64_t used_vertices = 0;
+  uint64_t used_vertices = strands ? 0 : vertices->count;
+  for (uint64_t strand = 1; !strands && strand <= strand_count; ++strand)
+    arrays.first_vertex[strand] = static_cast<uint32_t>(strand * limits.points_per_strand);
   for (std::size_t e = 0; e < header.element_count; ++e) {
     const Element& element = header.elements[e];
     const bool wanted = &element == vertices || &element == strands;

@@ -5,6 +5,40 @@
 
 namespace forelock {
 
+namespace {
+
+// Bytes of the character that `text` begins with; 0: it begins with none that may be shown.
+std::size_t characterSize(std::string_view text) noexcept {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const auto follows = [&](std::size_t i) { return (byte(i) & 0xc0u) == 0x80u; };
+  const unsigned first = byte(0);
+  if (first >= 0x20 && first < 0x7f) return 1;
+  if (first >= 0xc2 && first < 0xe0) return follows(1) && !(first == 0xc2 && byte(1) < 0xa0) ? 2 : 0;
+  // Not longer than needed, no surrogates, nothing beyond U+10FFFF.
+  if (first >= 0xe0 && first < 0xf0)
+    return follows(1) && follows(2) && !(first == 0xe0 && byte(1) < 0xa0) && !(first == 0xed && byte(1) >= 0xa0) ? 3 : 0;
+  if (first >= 0xf0 && first < 0xf5)
+    return follows(1) && follows(2) && follows(3) && !(first == 0xf0 && byte(1) < 0x90) && !(first == 0xf4 && byte(1) >= 0x90) ? 4 : 0;
+  return 0;
+}
+
+}  // namespace
+
+Quoted::Quoted(std::string_view word) noexcept {
+  constexpr std::size_t most = 60;
+  std::size_t used = 0;
+  while (!word.empty()) {
+    const std::size_t size = characterSize(word);
+    const std::size_t taken = size == 0 ? 1 : size;
+    if (used + taken > most) break;
+    if (size == 0) text[used] = '?';
+    else std::memcpy(text + used, word.data(), size);
+    used += taken;
+    word.remove_prefix(taken);
+  }
+  text[used] = '\0';
+}
+
 Report::Report(const Messages& messages, std::string_view name) noexcept : messages_(messages) {
   constexpr std::string_view ellipsis = "...";
   std::size_t used = 0;

@@ -7,6 +7,12 @@
 
 namespace forelock {
 
+// A word of a file as a sentence may show it: at most 60 bytes, whole characters of UTF-8, a question mark for any other byte.
+struct Quoted {
+  explicit Quoted(std::string_view word) noexcept;
+  char text[64];
+};
+
 class Report {
 public:
   // `name` may be longer than a message: its end is kept, which holds the file's own name.

@@ -139,7 +139,8 @@ void repairValues(StrandArrays& arrays, const std::pmr::vector<float>& lengths, 
 }
 
 // Closes the gaps of dropped strands. Everything moves towards the front, so it can be done in place.
-void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths) {
+void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths, uint32_t kept) {
+  arrays.dropped_strands.reserve(lengths.size() - kept);
   uint32_t strands = 0, vertices = 0;
   const auto move = [](FloatArray& array, std::size_t from, std::size_t to, std::size_t count) {
     if (array.empty() || from == to) return;
@@ -147,7 +148,10 @@ void removeDropped(StrandArrays& arrays, const std::pmr::vector<float>& lengths)
     std::copy(source, source + static_cast<std::ptrdiff_t>(count), array.begin() + static_cast<std::ptrdiff_t>(to));
   };
   for (uint32_t strand = 0; strand < lengths.size(); ++strand) {
-    if (lengths[strand] == dropped) continue;
+    if (lengths[strand] == dropped) {
+      arrays.dropped_strands.push_back(strand);
+      continue;
+    }
     const uint32_t begin = arrays.first_vertex[strand], count = arrays.first_vertex[strand + 1] - begin;
     move(arrays.positions, std::size_t{begin} * 3, std::size_t{vertices} * 3, std::size_t{count} * 3);
     move(arrays.radii, begin, vertices, count);
@@ -253,7 +257,7 @@ FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_
   const bool radii_in_range = arrays.radii.empty() || radii.within(0, largest_coordinate);
   repairValues(arrays, lengths, radii_in_range, places, findings);
   if (kept != source_strands) {
-    removeDropped(arrays, lengths);
+    removeDropped(arrays, lengths, kept);
     positions = rangeOf(arrays.positions);
   }
 

@@ -2,6 +2,8 @@
 
 #include "asset/cursor.h"
 #include "asset/strand_arrays.h"
+#include "asset/text_cursor.h"
+#include "asset/tfxbone_reader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,13 +71,8 @@ constexpr Signature text_signatures[] = {
     {"solid "sv, unknown, "STL_FILE", "an STL mesh as text, which holds no strands: give the hair, as .tfx, .hair or PLY"},
 };
 
-char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 bool startsWithoutCase(std::string_view text, std::string_view start) noexcept {
-  if (text.size() < start.size()) return false;
-  for (std::size_t i = 0; i < start.size(); ++i)
-    if (lower(text[i]) != start[i]) return false;
-  return true;
+  return text.size() >= start.size() && sameWord(text.substr(0, start.size()), start);
 }
 
 bool isText(std::string_view head) noexcept {
@@ -108,9 +105,16 @@ bool looksLikeStrandData(std::span<const std::byte> head) noexcept {
   return true;
 }
 
-}  // namespace
+// The count of bones after comments: how .tfxmesh files begin.
+bool looksLikeTfxmesh(std::span<const std::byte> head) noexcept {
+  TextCursor text(head);
+  std::string_view word = text.word();
+  for (; word.starts_with('#'); word = text.word()) text.skipLine();
+  return sameWord(word, "numOfBones"sv);
+}
 
-FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uint32_t& format) noexcept {
+// FLK_NOT_READY: nothing that is known, and nothing was said.
+FlkResult sniffKnown(std::span<const std::byte> head, const Report& report, uint32_t& format) noexcept {
   format = FLK_FORMAT_UNKNOWN;
   if (head.empty()) return report.fail(unknown, "FILE_EMPTY", "it is empty (0 bytes): write or download it again");
 
@@ -130,6 +134,7 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
       if (startsWithoutCase(text, signature.start))
         return report.fail(signature.result, signature.id, "it is %s", signature.text);
     if (startsWithoutCase(text, "version "sv)) return format = FLK_FORMAT_TFX_TEXT, FLK_SUCCESS;
+    if (looksLikeTfxmesh(head.first(all.size()))) return format = format_tfxmesh, FLK_SUCCESS;
     if (text.starts_with('{')) {
       if (text.find("\"asset\"") != std::string_view::npos || text.find("\"accessors\"") != std::string_view::npos)
         return report.fail(unknown, "GLTF_TEXT",
@@ -153,7 +158,46 @@ FlkResult sniffFormat(std::span<const std::byte> head, const Report& report, uin
                          double{version});
   }
 
+  if (looksLikeTfxbone(head) || fitsTfxbone(head)) return format = format_tfxbone, FLK_SUCCESS;
   if (looksLikeStrandData(head)) return format = FLK_FORMAT_STRAND_DATA, FLK_SUCCESS;
+  return FLK_NOT_READY;
+}
+
+struct FormatName {
+  uint32_t format;
+  const char* text;
+};
+
+constexpr FormatName strand_names[] = {{FLK_FORMAT_TFX, "TressFX hair (.tfx)"},
+                                       {FLK_FORMAT_HAIR, "hair of Cem Yuksel's format (.hair)"},
+                                       {FLK_FORMAT_TFX_TEXT, "TressFX hair as text (.tfx)"},
+                                       {FLK_FORMAT_STRAND_DATA, "strands of USC-HairSalon or CT2Hair"},
+                                       {FLK_FORMAT_COOKED, "a cooked file of hair"}, {FLK_FORMAT_PLY, "a PLY file"}};
+
+}  // namespace
+
+FlkResult sniffRig(std::span<const std::byte> head, const Report& report, uint32_t& format) noexcept {
+  FlkResult result = sniffKnown(head, report, format);
+  if (result == FLK_NOT_READY && isText({reinterpret_cast<const char*>(head.data()), std::min(head.size(), sniffed_bytes)}))
+    return report.fail(unknown, "FORMAT_UNKNOWN", "it is text, but does not begin with numOfBones (byte 0) as a .tfxmesh file does: "
+                                                  "give a .tfxbone or .tfxmesh file of TressFX");
+  if (result == FLK_NOT_READY) return format = format_tfxbone, FLK_SUCCESS;
+  for (const FormatName& name : strand_names)
+    if (result == FLK_SUCCESS && format == name.format)
+      return report.fail(unknown, "STRANDS_NOT_RIG", "it is %s, not what hair hangs on: load it with flkAssetLoadFile, and give the .tfxbone "
+                                                     "or .tfxmesh file beside it here", name.text);
+  return result;
+}
+
+FlkResult sniffStrands(std::span<const std::byte> head, const Report& report, uint32_t& format) noexcept {
+  const FlkResult result = sniffKnown(head, report, format);
+  if (result == FLK_SUCCESS && format == format_tfxbone)
+    return report.fail(unknown, "RIG_NOT_STRANDS", "it is a .tfxbone file, the skin weights of strands, not the strands: give the .tfx beside it, "
+                                                   "and this one to flkRigLoadFile or to forelock inspect (alone, or with --bones)");
+  if (result == FLK_SUCCESS && format == format_tfxmesh)
+    return report.fail(unknown, "RIG_NOT_STRANDS", "it is a .tfxmesh file, the mesh that hair collides with, not hair: give the .tfx beside it, "
+                                                   "and this one to flkRigLoadFile or to forelock inspect");
+  if (result != FLK_NOT_READY) return result;
 
   char hex[4 * 3 + 1] = "";
   constexpr char digits[] = "0123456789abcdef";

@@ -16,6 +16,7 @@ inline constexpr uint32_t limit_vertices = 268'435'456;
 struct Limits {
   uint32_t strands = limit_strands;
   uint32_t vertices = limit_vertices;
+  uint32_t points_per_strand = 0;  // no limit, but the caller's word on bare points; 0: none
 
   // No file within these limits is longer: text takes some 25 bytes a number at most, binary forms 40 bytes a vertex. The rest is room
   // for headers and for bytes at the end that belong to nothing.
@@ -33,7 +34,7 @@ using FloatArray = std::vector<float, UnfilledAllocator<float>>;
 struct StrandArrays {
   explicit StrandArrays(std::pmr::memory_resource* memory)
       : first_vertex(memory), positions(memory), radii(memory), root_uvs(memory), inverse_masses(memory),
-        colors(memory) {}
+        colors(memory), dropped_strands(memory) {}
 
   uint32_t strandCount() const noexcept { return static_cast<uint32_t>(first_vertex.size() - 1); }
   uint32_t vertexCount() const noexcept { return first_vertex.back(); }
@@ -44,6 +45,7 @@ struct StrandArrays {
   FloatArray root_uvs;                       // 2 a strand; empty: none
   FloatArray inverse_masses;                 // 1 a vertex; empty: none
   FloatArray colors;                         // 3 a vertex; empty: none
+  std::pmr::vector<uint32_t> dropped_strands;  // by sanitise(), numbered as in the source, rising
 };
 
 // Where in the file the values of an array lie, so that a finding can say at which byte to look.

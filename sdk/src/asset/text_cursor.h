@@ -11,6 +11,16 @@
 
 namespace forelock {
 
+inline char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+// Whatever the case of ASCII letters.
+inline bool sameWord(std::string_view a, std::string_view b) noexcept {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (lower(a[i]) != lower(b[i])) return false;
+  return true;
+}
+
 class TextCursor {
 public:
   explicit TextCursor(std::span<const std::byte> bytes) noexcept

@@ -15,13 +15,6 @@ using namespace std::string_view_literals;
 // Every coordinate is a digit and what divides it from the next, at least.
 constexpr uint64_t least_vertex = 6;
 
-char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool same(std::string_view word, std::string_view key) noexcept {
-  return word.size() == key.size() &&
-         std::equal(word.begin(), word.end(), key.begin(), [](char a, char b) { return lower(a) == lower(b); });
-}
-
 struct Header {
   float scale = 1, rotation[3] = {}, translation[3] = {};
   int64_t both_ends = 0, most_vertices = 0, follow_strands = 0, strands = -1;
@@ -48,26 +41,24 @@ constexpr Key keys[] = {
     {"numStrands"sv, 1, nullptr, nullptr, &Header::strands},
 };
 
-int printed(std::string_view word) noexcept { return static_cast<int>(std::min<std::size_t>(word.size(), 40)); }
-
 FlkResult notNumber(const Report& report, const TextCursor& text, const char* what, std::string_view word) {
   if (word.empty())
     return report.fail(FLK_ERROR_MALFORMED, "TFX_TEXT_TRUNCATED", "it ends in line %" PRIu64 " (byte %" PRIu64
                        "), where %s should be: it is truncated, fetch it again", text.line(), text.word_at(), what);
-  return report.fail(FLK_ERROR_MALFORMED, "TFX_TEXT_NOT_A_NUMBER", "in line %" PRIu64 " (byte %" PRIu64 ") %s should be, but there is \"%.*s\": "
-                     "the file is damaged, export it again", text.line(), text.word_at(), what, printed(word), word.data());
+  return report.fail(FLK_ERROR_MALFORMED, "TFX_TEXT_NOT_A_NUMBER", "in line %" PRIu64 " (byte %" PRIu64 ") %s should be, but there is \"%s\": "
+                     "the file is damaged, export it again", text.line(), text.word_at(), what, Quoted(word).text);
 }
 
 FlkResult readHeader(TextCursor& text, const Report& report, Header& header, Findings& findings) {
-  for (std::string_view next = text.peek(); !next.empty() && !same(next, "strand"sv); next = text.peek()) {
+  for (std::string_view next = text.peek(); !next.empty() && !sameWord(next, "strand"sv); next = text.peek()) {
     const std::string_view word = text.word();
-    if (same(word, "is"sv) && same(text.peek(), "sorted"sv)) {
+    if (sameWord(word, "is"sv) && sameWord(text.peek(), "sorted"sv)) {
       text.word();
       const std::string_view value = text.word();
       if (!TextCursor::parse(value, header.sorted)) return notNumber(report, text, "the value of \"is sorted\"", value);
       continue;
     }
-    const Key* key = std::find_if(std::begin(keys), std::end(keys), [&](const Key& k) { return same(word, k.name); });
+    const Key* key = std::find_if(std::begin(keys), std::end(keys), [&](const Key& k) { return sameWord(word, k.name); });
     if (key == std::end(keys)) {
       findings.note(FindingKind::tfx_text_key_unknown, no_strand, text.word_at());
       text.skipLine();
@@ -118,15 +109,15 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
     if (word.empty())
       return report.fail(FLK_ERROR_MALFORMED, "TFX_TEXT_TRUNCATED", "numStrands is %" PRId64 ", but it ends after strand %" PRId64 " in line %" PRIu64
                          " (byte %" PRIu64 "): it is truncated, fetch it again", header.strands, int64_t{strand} - 1, text.line(), text.word_at());
-    if (!same(word, "strand"sv))
+    if (!sameWord(word, "strand"sv))
       return report.fail(FLK_ERROR_MALFORMED, "TFX_TEXT_NO_STRAND", "in line %" PRIu64 " (byte %" PRIu64 ") strand %" PRIu32
-                         " should begin, but there is \"%.*s\": the counts before it are wrong, export it again",
-                         text.line(), text.word_at(), strand, printed(word), word.data());
+                         " should begin, but there is \"%s\": the counts before it are wrong, export it again",
+                         text.line(), text.word_at(), strand, Quoted(word).text);
     int64_t index = 0, count = 0;
     word = text.word();
     if (!TextCursor::parse(word, index)) return notNumber(report, text, "the number of a strand", word);
     word = text.word();
-    if (!same(word, "numVerts"sv)) return notNumber(report, text, "\"numVerts\" of a strand", word);
+    if (!sameWord(word, "numVerts"sv)) return notNumber(report, text, "\"numVerts\" of a strand", word);
     word = text.word();
     if (!TextCursor::parse(word, count)) return notNumber(report, text, "the count of a strand's vertices", word);
     if (count < 0 || static_cast<uint64_t>(count) > (text.left() + 1) / least_vertex)
@@ -137,7 +128,7 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
                          ") is beyond the limit of %" PRIu32 " strands and %" PRIu32 " vertices: split it or raise the limit",
                          strand, text.line(), text.word_at(), limits.strands, limits.vertices);
     float uv[2] = {};
-    if (same(text.peek(), "texcoord"sv)) {
+    if (sameWord(text.peek(), "texcoord"sv)) {
       text.word();
       for (float& value : uv)
         if (word = text.word(); !TextCursor::parse(word, value)) return notNumber(report, text, "a texture coordinate", word);

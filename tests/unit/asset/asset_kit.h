@@ -38,7 +38,7 @@ public:
     return *this;
   }
   Bytes& setU32(size_t at, uint64_t value) {
-    for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<unsigned char>(value >> (8 * i));
+    for (size_t i = 0; i < 4; ++i) bytes.at(at + i) = static_cast<unsigned char>(value >> (8 * i));
     return *this;
   }
   Bytes& setF32(size_t at, float value) {
@@ -188,6 +188,7 @@ inline std::unique_ptr<Loaded> load(const Bytes& bytes, const char* name = "seed
     EXPECT_FALSE(error.empty());
     for (const Caught::Message& message : loaded->caught.all) {
       EXPECT_EQ(message.text.rfind(std::string(name) + ": ", 0), 0u) << message.text;
+      EXPECT_TRUE(isSentence(message.text.c_str())) << message.text;
     }
   }
   return loaded;

@@ -1,4 +1,5 @@
 #include "asset/cursor.h"
+#include "asset/report.h"
 
 #include <gtest/gtest.h>
 
@@ -79,4 +80,21 @@ TEST(ByteSink, WritesWhatTheCursorReads) {
   sink.u16(7);
   EXPECT_FALSE(sink.complete()) << "one value too many";
   EXPECT_EQ(out, bytes);
+}
+
+TEST(Quoted, ShowsWholeCharactersOnly) {
+  const auto shown = [](const std::string& word) { return std::string(forelock::Quoted(word).text); };
+  EXPECT_EQ(shown("numVerts"), "numVerts");
+  EXPECT_EQ(shown(""), "");
+  for (const char* whole : {"kopf\xc3\xbc", "\xe9\xa0\xad", "\xf0\x9f\x92\x87"}) EXPECT_EQ(shown(whole), whole);
+  EXPECT_EQ(shown(std::string("a\nb\x7f\0c", 6)), "a?b??c");
+  EXPECT_EQ(shown("\xff\xc3"), "??") << "no lead, and a lead that nothing follows";
+  EXPECT_EQ(shown("\xc0\xaf"), "??") << "longer than needed";
+  EXPECT_EQ(shown("\xe0\x80\xaf"), "???") << "longer than needed";
+  EXPECT_EQ(shown("\xf0\x80\x80\xaf"), "????") << "longer than needed";
+  EXPECT_EQ(shown("\xed\xa0\x80"), "???") << "a surrogate";
+  EXPECT_EQ(shown("\xf4\x90\x80\x80"), "????") << "beyond the last character";
+  EXPECT_EQ(shown("\xc2\x85"), "??") << "a control character";
+  EXPECT_EQ(shown(std::string(100, 'x')), std::string(60, 'x'));
+  EXPECT_EQ(shown(std::string(59, 'x') + "\xc3\xbc"), std::string(59, 'x')) << "a character that does not fit is left out whole";
 }

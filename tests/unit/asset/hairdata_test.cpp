@@ -1,5 +1,5 @@
 // The files of other people's programs, where they are present: what their README says of them, and what is odd about them.
-#include "asset_kit.h"
+#include "rig_kit.h"
 
 #include <chrono>
 #include <cstdio>
@@ -157,6 +157,33 @@ TEST(Hairdata, RootsAndTips) {
     again.asset.reset(asset);
     EXPECT_EQ(again.finding("ROOT_AT_TIP").count, held.strand_count) << name << " " << again.codes();
   }
+}
+
+TEST(Hairdata, MohawkSkin) {
+  const std::string path = dataPath("Ratboy_mohawk.tfxbone");
+  NEEDS(path);
+  const auto hair = loadFile(dataPath("Ratboy_mohawk.tfx"));
+  ASSERT_EQ(hair->result, FLK_SUCCESS);
+  LoadedRig loaded;
+  FlkRigOptions options{};
+  options.type = FLK_TYPE_RIG_OPTIONS;
+  options.message = Caught::receive;
+  options.message_user = &loaded.caught;
+  options.asset = hair->asset.get();
+  FlkRig rig = nullptr;
+  loaded.result = flkRigLoadFile(path.c_str(), &options, &rig);
+  loaded.rig.reset(rig);
+  ASSERT_EQ(loaded.result, FLK_SUCCESS) << loaded.caught.text();
+  EXPECT_EQ(brokenRigPromise(rig), nullptr);
+  EXPECT_EQ(loaded.info().kind, uint32_t{FLK_RIG_SKIN});
+  EXPECT_EQ(loaded.info().bone_count, 105u);
+  EXPECT_EQ(loaded.info().record_count, 2228u);
+  EXPECT_STREQ(loaded.arrays().bone_names[0], "frenchHornMonster_head_JNT");
+  EXPECT_STREQ(loaded.arrays().bone_names[104], "frenchHornMonster_R_Toe_End_JNT");
+  EXPECT_EQ(loaded.codes(), "WEIGHTS_NOT_NORMALISED SKIN_RECORDS_UNALIGNED");
+  EXPECT_EQ(loaded.finding("WEIGHTS_NOT_NORMALISED").count, 141u);
+  EXPECT_NE(std::string(loaded.finding("WEIGHTS_NOT_NORMALISED").text).find("the worst make 0.919748"), std::string::npos);
+  EXPECT_EQ(loaded.finding("SKIN_RECORDS_UNALIGNED").byte_offset, 4161u);
 }
 
 TEST(Hairdata, NeighbouringFilesAreNoStrands) {

@@ -105,6 +105,81 @@ TEST(Ply, RecordsOfNothing) {
   EXPECT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
 }
 
+// Properties of every type, in both byte orders: what is used may have any.
+TEST(Ply, EveryType) {
+  for (const bool big : {false, true}) {
+    Bytes file;
+    file.text(std::string("ply\nformat binary_") + (big ? "big" : "little") +
+              "_endian 1.0\nelement vertex 2\nproperty int8 a\nproperty uint16 x\nproperty int32 y\nproperty double z\nproperty uint32 b\n"
+              "property list int16 short c\nelement strand 1\nproperty int nsegs\nend_header\n");
+    const auto put = [&](uint64_t bits, int size) {
+      for (int i = 0; i < size; ++i) file.bytes.push_back(static_cast<unsigned char>(bits >> (8 * (big ? size - 1 - i : i))));
+    };
+    for (int vertex = 0; vertex < 2; ++vertex) {
+      put(0x80, 1);
+      put(vertex ? 0xffff : 3, 2);
+      put(vertex ? 0xfffffffe : 4, 4);
+      put(vertex ? 0x4004000000000000 : 0xbfe0000000000000, 8);  // 2.5, -0.5
+      put(0xffffffff, 4);
+      put(1, 2);
+      put(0x8000, 2);
+    }
+    put(1, 4);
+    const auto loaded = load(file);
+    ASSERT_EQ(loaded->result, FLK_SUCCESS) << loaded->caught.text();
+    const float expected[6] = {3, 4, -0.5f, 65535, -2, 2.5f};
+    EXPECT_EQ(std::memcmp(loaded->strands().positions, expected, sizeof expected), 0);
+    EXPECT_EQ(load(file.cut(file.size() - 1))->caught.error(), "PLY_PAST_END");
+  }
+}
+
+// As NeuralHaircut writes them: vertices, and nothing that says which make a strand.
+TEST(Ply, BarePoints) {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  for (int i = 0; i < 6; ++i) text += std::to_string(i / 3) + " " + std::to_string(i % 3) + " 0\n";
+  const auto loadPoints = [&](const std::string& file, uint32_t points_per_strand, uint32_t max_strands = 0) {
+    auto loaded = std::make_unique<Loaded>();
+    FlkAssetOptions options = optionsFor(loaded->caught, "points.ply");
+    options.points_per_strand = points_per_strand;
+    options.max_strands = max_strands;
+    FlkAsset asset = nullptr;
+    loaded->result = flkAssetLoadMemory(file.data(), file.size(), &options, &asset);
+    loaded->asset.reset(asset);
+    if (asset) {
+      EXPECT_EQ(brokenPromise(asset), nullptr);
+      EXPECT_EQ(brokenRoundTrip(asset), nullptr);
+    }
+    return loaded;
+  };
+  const auto three = loadPoints(text, 3);
+  ASSERT_EQ(three->result, FLK_SUCCESS) << three->caught.text();
+  EXPECT_EQ(three->info().strand_count, 2u);
+  EXPECT_EQ(three->strands().first_vertex[1], 3u);
+  EXPECT_EQ(three->strands().positions[9], 1.0f);
+  EXPECT_EQ(three->codes(), "WIDTH_DEFAULTED");
+  EXPECT_EQ(loadPoints(text, 2)->info().strand_count, 3u);
+  EXPECT_EQ(loadPoints(text, 6)->info().strand_count, 1u);
+
+  const auto refused = [&](const std::string& file, uint32_t points, FlkResult result, const char* id, const char* says) {
+    const auto loaded = loadPoints(file, points);
+    EXPECT_EQ(loaded->result, result) << loaded->caught.text();
+    EXPECT_EQ(loaded->caught.error(), id);
+    EXPECT_NE(loaded->caught.text().find(says), std::string::npos) << loaded->caught.text();
+  };
+  refused(text, 0, FLK_ERROR_FORMAT_UNKNOWN, "PLY_NO_STRANDS", "points_per_strand");
+  refused(text, 1, FLK_ERROR_INVALID_ARGUMENT, "INVALID_ARGUMENT", "points_per_strand is 1");
+  refused(text, 4, FLK_ERROR_MALFORMED, "PLY_POINTS_DISAGREE", "its 6 points (byte 36) make 1 strands of points_per_strand = 4 and leave 2 over");
+  refused(text, 7, FLK_ERROR_MALFORMED, "PLY_POINTS_DISAGREE", "leave 6 over");
+  refused(text, UINT32_MAX, FLK_ERROR_MALFORMED, "PLY_POINTS_DISAGREE", "leave 6 over");
+  refused(replaced(text, "vertex 6", "vertex 0"), 3, FLK_ERROR_EMPTY_ASSET, "PLY_EMPTY", "0 vertices");
+  refused(replaced(text, "vertex 6", "vertex 4611686018427387904"), 2, FLK_ERROR_MALFORMED, "PLY_PAST_END", "truncated");
+  refused(replaced(text, "end_header", "element face 2\nproperty list uchar int i\nend_header"), 3, FLK_ERROR_FORMAT_UNKNOWN, "PLY_MESH", "2 faces");
+  EXPECT_EQ(loadPoints(text, 2, 2)->caught.error(), "PLY_TOO_LARGE");
+  const auto told = loadPoints(smallPlyText(), 3);
+  ASSERT_EQ(told->result, FLK_SUCCESS);
+  EXPECT_EQ(told->strands().first_vertex[1], 2u) << "the file's own strands count";
+}
+
 TEST(Ply, Refusals) {
   const std::string text = smallPlyText();
   expectRefusal("ply\n", FLK_ERROR_MALFORMED, "PLY_HEADER", "format");

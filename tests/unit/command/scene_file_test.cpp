@@ -102,6 +102,7 @@ TEST(SceneFile, SaysWhatIsWrongWithTheRest) {
   EXPECT_EQ(asset(R"("follow": {"count": 1, "seed": -1})"),
             "assets[0].follow.seed is -1, must be a whole number in [0, 4294967295]");
   EXPECT_EQ(asset(R"("root_image": 3)"), "assets[0].root_image is 3, must be a string");
+  EXPECT_NE(asset(R"("points_per_strand": 1)").find("assets[0].points_per_strand"), std::string::npos);
   EXPECT_EQ(asset(R"("ignore_colors": 3)"), "assets[0].ignore_colors is 3, must be true or false");
   EXPECT_EQ(asset(R"("material": {"tip_blend": 1})"),
             "assets[0].material.tip_blend belongs to a material with tip_color, which is missing");
@@ -222,7 +223,7 @@ TEST(SceneFile, WrittenScenesReadBack) {
   const std::string written = writeScene(scene);
   EXPECT_EQ(writeScene(parseScene(written)), written);
   EXPECT_EQ(writeScene(parseScene(writeScene(Scene{}))), writeScene(Scene{}));
-  const std::string more = R"({"assets": [{"source": "a.tfx", "root_image": "scalp.png", "ignore_colors": true,
+  const std::string more = R"({"assets": [{"source": "a.tfx", "root_image": "scalp.png", "ignore_colors": true, "points_per_strand": 100,
       "follow": {"count": 7, "radius_mm": 2.5, "spread_tip": 0.25, "seed": 9},
       "material": {"tip_color": "#d8a860", "tip_blend": 0.75}}],
       "lights": [{"intensity": 0.5}, {"kind": "point", "position": [1, 2, 3], "range": 4, "source_radius_mm": 30},
@@ -233,7 +234,7 @@ TEST(SceneFile, WrittenScenesReadBack) {
       "lens": {"center": [0.25, 0.75], "radius": 0.2, "feather": 0.1, "inside": 0.5}})";
   const std::string rewritten = writeScene(parseScene(more));
   EXPECT_EQ(writeScene(parseScene(rewritten)), rewritten);
-  for (const char* kept : {"\"scalp.png\"", "\"ignore_colors\": true", "\"spread_tip\": 0.25", "#d8a860", "\"range\": 4",
+  for (const char* kept : {"\"scalp.png\"", "\"ignore_colors\": true", "\"points_per_strand\": 100", "\"spread_tip\": 0.25", "#d8a860", "\"range\": 4",
                            "\"outer_angle\": 40", "#4a5a76", "\"hard\"", "\"list\"", "\"compute\"", "\"end_m\": 0.75",
                            "\"inside\": 0.5"}) {
     EXPECT_NE(rewritten.find(kept), std::string::npos) << kept << " is not in " << rewritten;

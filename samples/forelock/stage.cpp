@@ -2,10 +2,13 @@
 #include "stage.h"
 
 #include "bust.h"
+#include "colored_stage.h"
 #include "commands.h"
 #include "image.h"
 #include "progress.h"
+#include "stray.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -16,6 +19,7 @@ namespace forelock::samples {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kWidestShare = 1.0 / 25.0;  // of a strand's mean length: where a file has no widths
 constexpr size_t kMostSeen = 1u << 20;  // points for framing: one in so many is left out beyond
 
 void placeAsset(const SceneAsset& asset, UpAxis up, double matrix[16]) {
@@ -44,7 +48,21 @@ void collectSeen(Stage& stage) {
     FlkStrands strands = {};
     flkAssetGetStrands(asset.opened.asset.get(), &strands);
     const double* m = asset.world_from_hair;
+    const std::vector<uint8_t> stray = findStrayStrands(strands);
+    if (!stray.empty()) {
+      const auto count = static_cast<uint64_t>(std::count(stray.begin(), stray.end(), uint8_t{1}));
+      stage.notes.push_back(asset.opened.label + ": " + groupedDigits(count) + (count == 1 ? " strand lies" : " strands lie") +
+                            " so far off that the picture leaves " + (count == 1 ? "it" : "them") + " outside; first is strand " +
+                            std::to_string(std::find(stray.begin(), stray.end(), uint8_t{1}) - stray.begin()));
+    }
+    uint32_t strand = 0;
     for (size_t v = 0; v < strands.vertex_count; v += step) {
+      while (v >= strands.first_vertex[strand + 1]) {
+        ++strand;
+      }
+      if (!stray.empty() && stray[strand] != 0) {
+        continue;
+      }
       const float* p = strands.positions + 3 * v;
       glm::dvec3 world(m[12], m[13], m[14]);
       for (int column = 0; column < 3; ++column) {
@@ -65,6 +83,30 @@ void collectSeen(Stage& stage) {
       stage.seen.emplace_back((corner & 1) ? high[0] : low[0], (corner & 2) ? high[1] : low[1],
                               (corner & 4) ? high[2] : low[2]);
     }
+  }
+}
+
+// Strands that hang along another axis than the one that was named: told, never turned.
+void noteUpAxis(Stage& stage, const StagedAsset& asset) {
+  FlkStrands strands = {};
+  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  glm::dvec3 fall(0.0);
+  for (uint32_t s = 0; s < strands.strand_count; ++s) {
+    const float* root = strands.positions + size_t{3} * strands.first_vertex[s];
+    const float* tip = strands.positions + size_t{3} * (strands.first_vertex[s + 1] - 1);
+    const glm::dvec3 d = glm::dvec3(tip[0], tip[1], tip[2]) - glm::dvec3(root[0], root[1], root[2]);
+    const double length = glm::length(d);
+    fall += length > 0.0 ? d / length : d;
+  }
+  fall /= strands.strand_count;
+  const bool z_up = stage.scene.camera.up == UpAxis::Z;
+  const double along = z_up ? fall.z : fall.y, other = z_up ? fall.y : fall.z;
+  const float* low = asset.info.min_bounds;
+  const float* high = asset.info.max_bounds;
+  const int up = z_up ? 2 : 1, or_up = z_up ? 1 : 2;  // hair that is combed back is not as long as it is high
+  if (other < -0.5 && std::fabs(along) < 0.35 && high[or_up] - low[or_up] > high[up] - low[up]) {
+    stage.notes.push_back(asset.opened.label + ": strands hang along -" + (z_up ? "y" : "z") + "; if that is down, use --up " +
+                          (z_up ? "y" : "z"));
   }
 }
 
@@ -95,12 +137,35 @@ void loadRootImage(const std::string& path, StagedAsset& asset) {
   asset.root_image = {asset.root_pixels.data(), image.width, image.height};
 }
 
+// What a centimetre or millimetre is taken for where the library suspects that it is the asset's unit; else 1.
+double suspectedUnit(const SceneAsset& wanted, const StagedAsset& asset) {
+  const std::vector<AssetFinding> findings = findingsOf(asset.opened);
+  const bool suspect = std::any_of(findings.begin(), findings.end(), [](const AssetFinding& f) { return f.code == "UNIT_SUSPECT"; });
+  if (!suspect || wanted.scale != 1.0) {
+    return 1.0;
+  }
+  // The library looks at the farthest coordinate: of strands astray, or far from the origin, that is no size of the hair.
+  FlkStrands strands = {};
+  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  const std::vector<uint8_t> stray = findStrayStrands(strands);
+  glm::vec3 low(1e30f), high(-1e30f);
+  for (uint32_t s = 0; s < strands.strand_count; ++s) {
+    for (uint32_t v = strands.first_vertex[s]; (stray.empty() || stray[s] == 0) && v < strands.first_vertex[s + 1]; ++v) {
+      const glm::vec3 p(strands.positions[size_t{3} * v], strands.positions[size_t{3} * v + 1], strands.positions[size_t{3} * v + 2]);
+      low = glm::min(low, p), high = glm::max(high, p);
+    }
+  }
+  const float size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  return size <= 10.0f ? 1.0 : size > 1000.0f ? 1000.0 : 100.0;
+}
+
 // What an asset looks like by itself and by what the scene wants of it.
-void stageLook(const SceneAsset& wanted, StagedAsset& asset) {
+void stageLook(const SceneAsset& wanted, StagedAsset& asset, std::vector<std::string>& notes) {
   asset.material = wanted.material;
   asset.follow = {wanted.follow.count, static_cast<float>(wanted.follow.radius_mm * 1e-3),
                   static_cast<float>(wanted.follow.spread_tip), wanted.follow.seed};
   asset.flags = wanted.ignore_colors ? FLK_HAIR_IGNORE_COLORS : 0;
+  const double unit = suspectedUnit(wanted, asset);
   double scale = static_cast<double>(asset.material.width_scale);
   const double diameter_mm = 2e3 * static_cast<double>(asset.info.max_radius);
   if (wanted.width_mm > 0.0) {
@@ -109,7 +174,21 @@ void stageLook(const SceneAsset& wanted, StagedAsset& asset) {
     // The default width is for so many strands: with follow strands there are more.
     const double strands = static_cast<double>(asset.info.strand_count);
     const double all = strands * (1.0 + static_cast<double>(wanted.follow.count));
-    scale *= std::max(1.0, 1e5 / all) / std::max(1.0, 1e5 / strands);
+    scale *= std::max(1.0, 1e5 / all) / std::max(1.0, 1e5 / strands) * unit;
+    const double widest = kWidestShare * static_cast<double>(asset.info.mean_length) * 1e3 / diameter_mm;
+    if (scale > widest) {  // of a few strands the rule makes ribbons wider than long
+      scale = widest;
+      notes.push_back(asset.opened.label + ": so few strands would be " + shortNumber(diameter_mm * unit) +
+                      " mm wide by the default, drawn are " + shortNumber(diameter_mm * widest) + " mm, 1/25 of their mean length");
+    }
+  }
+  if (unit != 1.0) {
+    const bool widths = wanted.width_mm <= 0.0 && !asset.info.has_radii;
+    asset.material.fibre_spacing *= static_cast<float>(unit);
+    asset.follow.radius *= static_cast<float>(unit);
+    notes.push_back(asset.opened.label + ": coordinates suggest " + (unit > 100.0 ? "millimetres" : "centimetres") + ", so " +
+                    (widths ? "the default width and what shadows take for the distance of fibres are " : "what shadows take for the distance of fibres is ") +
+                    shortNumber(unit) + " times as large as for metres; `forelock convert --scale` makes it metres");
   }
   asset.material.width_scale = static_cast<float>(scale);
   asset.width_mm = diameter_mm * scale;
@@ -151,7 +230,7 @@ Stage openStage(const Scene& scene) {
     }
     printMessages(*asset.opened.messages, false);
     flkAssetGetInfo(asset.opened.asset.get(), &asset.info);
-    stageLook(wanted, asset);
+    stageLook(wanted, asset, stage.notes);
     placeAsset(wanted, scene.camera.up, asset.world_from_hair);
     on_bust = on_bust || (asset.opened.recipe && asset.opened.recipe->drape_on_bust);
   }
@@ -179,6 +258,15 @@ Stage openStage(const Scene& scene) {
     stage.scene.head = on_bust;
   }
   collectSeen(stage);
+  for (const StagedAsset& asset : stage.assets) {
+    if (!asset.opened.recipe && !stage.scene.camera.placed) {
+      noteUpAxis(stage, asset);
+    }
+  }
+  stage.legend = displayLegend(scene.display);
+  if (scene.coloring != StrandColoring::none) {
+    return coloredStage(stage, scene.coloring);
+  }
   return stage;
 }
 
@@ -267,7 +355,8 @@ StagedFrame::StagedFrame(const Stage& stage, const Camera& camera, const std::ve
                          uint32_t width, uint32_t height)
     : frame(frameDesc()), ambient_sh{}, modifiers{} {
   const Scene& scene = stage.scene;
-  for (const SceneLight& wanted : scene.lights) {
+  const bool lit = scene.coloring == StrandColoring::none;  // else colours are seen as they are
+  for (const SceneLight& wanted : lit ? scene.lights : std::vector<SceneLight>()) {
     FlkLight& light = lights.emplace_back();
     light.kind = wanted.kind;
     const glm::dvec3 towards = towardsLight(wanted, camera);
@@ -284,7 +373,7 @@ StagedFrame::StagedFrame(const Stage& stage, const Camera& camera, const std::ve
     light.shadow_size = wanted.shadow_size;
   }
   Harmonics harmonics;
-  if (stageHarmonics(stage, harmonics)) {
+  if (lit && stageHarmonics(stage, harmonics)) {
     for (size_t i = 0; i < 27; ++i) {
       ambient_sh[i] = static_cast<float>(harmonics[i / 3][static_cast<int>(i % 3)] * exposure);
     }
@@ -307,7 +396,7 @@ StagedFrame::StagedFrame(const Stage& stage, const Camera& camera, const std::ve
   }
   frame.opacity_modifiers = modifiers;
   for (int i = 0; i < 3; ++i) {
-    frame.ambient[i] = static_cast<float>(scene.ambient[i] * exposure);
+    frame.ambient[i] = lit ? static_cast<float>(scene.ambient[i] * exposure) : 1.0f;
   }
   for (const Hair& hair : hairs) {
     handles.push_back(hair);
@@ -333,8 +422,8 @@ StagedFrame::StagedFrame(const Stage& stage, const Camera& camera, const std::ve
 
 std::string methodText(const Scene& scene) {
   const std::string capture = scene.capture == FLK_CAPTURE_DEFAULT ? "" : ", capture by " + captureNames()[scene.capture];
-  if (scene.display != FLK_DISPLAY_SHADED) {
-    return "colours show " + displayNames()[scene.display] + capture;
+  if (scene.display != FLK_DISPLAY_SHADED || scene.coloring != StrandColoring::none) {
+    return "colours show " + shownName(scene) + capture;
   }
   std::string text = methodNames()[scene.method];
   const uint32_t k = scene.k == FLK_K_NONE ? 0 : scene.k == 0 ? 8 : scene.k;

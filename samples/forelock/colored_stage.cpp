@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace forelock::samples {
 
@@ -65,6 +66,7 @@ class Colorer {
     asset.follow = follow ? from.follow : FlkFollowStrands{};
     asset.reflectance = glm::dvec3(1.0);
     asset.width_mm = from.width_mm;
+    asset.width_noted = from.width_noted;
     std::copy(from.world_from_hair, from.world_from_hair + 16, asset.world_from_hair);
     colored_.scene.assets.push_back(plain_.scene.assets[index]);
   }
@@ -171,7 +173,7 @@ void showGroups(const Stage& plain, Colorer& colorer, Legend& legend) {
         legend.swatches.emplace_back(distinctColor(number++), name);
       }
     } else {
-      legend.swatches.emplace_back(distinctColor(number++), opened.label);
+      legend.swatches.emplace_back(distinctColor(number++), std::filesystem::path(opened.label).filename().string());
     }
     colorer.add(i, strands, 1.0, true);
   }
@@ -236,8 +238,10 @@ Stage coloredStage(const Stage& plain, StrandColoring coloring) {
   stage.scene.assets.clear();
   stage.scene.coloring = coloring;
   stage.scene.display = FLK_DISPLAY_SHADED;
-  stage.scene.method = FLK_METHOD_EXACT;  // what lies behind a colour shows through in order
+  stage.scene.method = FLK_METHOD_CORE_TAIL;  // the nearest eight in order; without lights a cheap shade is the full one
   stage.scene.k = stage.scene.k_sort = 0;
+  stage.scene.tail = FLK_TAIL_DEFAULT;
+  stage.scene.low_shade = FLK_LOW_SHADE_DEFAULT;
   stage.seen = plain.seen;
   stage.radius = plain.radius;
   stage.notes = plain.notes;

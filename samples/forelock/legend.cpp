@@ -28,6 +28,20 @@ glm::vec3 barColor(const Legend& legend, double share) {
   return legend.stops.back().second;
 }
 
+// How much differs from the picture's upper left pixel: hair, or the bust.
+double hairIn(const Image& image, int left, int top, int width, int height) {
+  double sum = 0.0;
+  for (int y = top; y < top + height; ++y) {
+    for (int x = left; x < left + width; ++x) {
+      const float* pixel = image.pixel(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
+      for (int channel = 0; channel < 4; ++channel) {
+        sum += std::fabs(static_cast<double>(pixel[channel] - image.rgba[static_cast<size_t>(channel)]));
+      }
+    }
+  }
+  return sum;
+}
+
 const char* colorWord(double share) {
   constexpr const char* words[] = {"blue", "cyan", "green", "yellow", "red"};
   return words[static_cast<size_t>(std::lround(std::clamp(share, 0.0, 1.0) * 4.0))];
@@ -85,7 +99,7 @@ Legend displayLegend(uint32_t display) {
   return legend;
 }
 
-void drawLegend(Image& image, const Legend& legend) {
+void drawLegend(Image& image, const Legend& legend, int& corner) {
   if (legend.title.empty()) {
     return;
   }
@@ -101,7 +115,19 @@ void drawLegend(Image& image, const Legend& legend) {
   if (2 * width > 3 * static_cast<int>(image.width) / 2 || 3 * height > static_cast<int>(image.height)) {
     return;  // more than three quarters of the width, or a third of the height
   }
-  const int left = edge, top = static_cast<int>(image.height) - height - edge;
+  const int right = static_cast<int>(image.width) - width - edge, bottom = static_cast<int>(image.height) - height - edge;
+  const int corners[4][2] = {{edge, bottom}, {right, bottom}, {edge, edge}, {right, edge}};
+  double least = 1e30;
+  int best = 0;
+  for (int i = 0; corner < 0 && i < 4; ++i) {
+    const double covered = hairIn(image, corners[i][0], corners[i][1], width, height);
+    if (covered < least) {
+      least = covered;
+      best = i;
+    }
+  }
+  corner = corner < 0 ? best : corner;
+  const int left = corners[corner][0], top = corners[corner][1];
   fillBox(image, left, top, width, height, kGround);
   int y = top + edge;
   drawText(image, left + edge, y, legend.title, kText, scale);

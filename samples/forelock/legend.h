@@ -23,8 +23,9 @@ Legend scaleLegend(const std::string& title, const ColorScale& scale);
 // Of FLK_DISPLAY_...; empty where colours are no data.
 Legend displayLegend(uint32_t display);
 
-// In the lower left corner; nothing where the picture is too small for it.
-void drawLegend(Image& image, const Legend& legend);
+// Nothing where the picture is too small for it. `corner`: negative becomes the one where it covers least, the lower left one if equal;
+// the next pictures of a row keep it.
+void drawLegend(Image& image, const Legend& legend, int& corner);
 
 // "curvature (1/unit): blue 0, green 55, red 110".
 std::string legendText(const Legend& legend);

@@ -163,7 +163,7 @@ void printText(const PreviewArguments& arguments, const HeadlessHost& host, cons
                   asset.opened.label.c_str());
     }
     const bool again = i > 0 && stage.assets[i - 1].opened.label == asset.opened.label;
-    if (!asset.info.has_radii && stage.scene.assets[i].width_mm <= 0.0 && !again) {
+    if (!asset.info.has_radii && stage.scene.assets[i].width_mm <= 0.0 && !asset.width_noted && !again) {
       std::printf("  width       %.3g mm: %s has none, so 80 um x max(1, 100,000 / strands%s); --width MM changes it\n",
                   asset.width_mm, asset.opened.label.c_str(), asset.follow.count > 0 ? ", follow strands too" : "");
     }
@@ -235,6 +235,7 @@ Preview drawPreview(HeadlessHost& host, const Scene& scene, const PreviewArgumen
   const uint32_t views = std::max(arguments.turntable, 1u);
   Strip strip(views, stage.scene.width, stage.scene.height);
   double exposure = scene.exposure;
+  int corner = -1;
   {
     Progress progress("drawing " + out);
     for (uint32_t i = 0; i < views; ++i) {
@@ -243,7 +244,7 @@ Preview drawPreview(HeadlessHost& host, const Scene& scene, const PreviewArgumen
       exposure = preview.picture.exposure;  // one light for all views
       warnOfPicture(out, preview.picture);
       if (!arguments.no_legend) {
-        drawLegend(preview.picture.image, stage.legend);
+        drawLegend(preview.picture.image, stage.legend, corner);
       }
       if (arguments.turntable > 0) {
         savePicture(numberedPath(out, i), preview.picture.image);

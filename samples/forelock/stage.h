@@ -22,6 +22,7 @@ struct StagedAsset {
   FlkRootImage root_image{};       // width 0: none
   glm::dvec3 reflectance{0.0};     // mean of the fibres', linear
   double width_mm = 0.0;           // diameter of the widest vertex as drawn, a unit being a metre
+  bool width_noted = false;   // a note says how wide it is and why
   double world_from_hair[16];
 };
 
@@ -38,6 +39,10 @@ struct Stage {
 
 // Shows progress; prints what the library has to say of the assets. With the scene's colouring. Throws AssetError or UsageError.
 Stage openStage(const Scene& scene);
+
+// Material, width and follow strands of an opened asset: its own, and what the scene wants of it. What was decided otherwise than asked
+// for goes into `notes`. Throws AssetError.
+void stageLook(const SceneAsset& wanted, StagedAsset& asset, std::vector<std::string>& notes);
 
 // View `turn` of `turns` around the hair.
 Camera stageCamera(const Stage& stage, uint32_t turn, uint32_t turns);

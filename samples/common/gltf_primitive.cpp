@@ -216,8 +216,14 @@ EditableStrands GltfCollector::finish() {
     if (const auto unused = std::count(used.begin(), used.end(), false); unused > 0)
       findings_.note(GltfFinding::vertices_unused, GltfFindings::kNoStrand, uint64_t(unused));
   if (strandCount() == 0) refuseGltf("GLTF_NO_LINES", "its lines have no segment that leads from one vertex to another: export it again", FLK_ERROR_EMPTY_ASSET);
-  // The library's default, of a diameter of 80 um for 100,000 strands; white; free; the corner of the scalp.
-  fill(radii_, strands_.vertices(), 40e-6f * std::max(1.0f, 100'000.0f / float(strandCount())));
+  // Nearly the library's default width (docs/findings.md); white; free; the corner of the scalp.
+  float side = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    float low = strands_.positions[axis], high = low;
+    for (size_t i = axis; i < strands_.positions.size(); i += 3) low = std::min(low, strands_.positions[i]), high = std::max(high, strands_.positions[i]);
+    side = std::max(side, high - low);
+  }
+  fill(radii_, strands_.vertices(), 0.5f * std::min(side / 5000 * std::max(1.0f, 100'000.0f / float(strandCount())), side / 1000));
   fill(colors_, strands_.vertices(), 1);
   fill(masses_, strands_.vertices(), 1);
   fill(uvs_, strandCount(), 0);

@@ -17,6 +17,11 @@ Progress::~Progress() {
   }
 }
 
+void Progress::rename(std::string label) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  label_ = std::move(label);
+}
+
 void Progress::update(uint64_t done, uint64_t total) {
   if (!is_terminal_ || total == 0) {
     return;
@@ -37,7 +42,7 @@ void Progress::update(uint64_t done, uint64_t total) {
   for (int i = 0; i < width; ++i) {
     bar[i] = i < static_cast<int>(share * width) ? '#' : '.';
   }
-  std::fprintf(stderr, "\r%s [%s] %3d %%", label_.c_str(), bar, static_cast<int>(share * 100.0));
+  std::fprintf(stderr, "\r\033[K%s [%s] %3d %%", label_.c_str(), bar, static_cast<int>(share * 100.0));
   std::fflush(stderr);
 }
 

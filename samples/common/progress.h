@@ -18,6 +18,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(uint64_t done, uint64_t total);
+  void rename(std::string label);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -223,7 +223,7 @@ Scene readScene(const nlohmann::json& json) {
   }
   top.integer("k_sort", scene.k_sort, 1, 32);
   scene.payload = readChoice(top, "payload", payloadNames(), scene.payload);
-  scene.display = readChoice(top, "show", displayNames(), scene.display);
+  setShown(scene, readChoice(top, "show", displayNames(), scene.display));
   scene.tail = readChoice(top, "tail", tailNames(), scene.tail);
   scene.low_shade = readChoice(top, "low_shade", lowShadeNames(), scene.low_shade);
   top.integer("core_taps", scene.core_taps, 1, 25);
@@ -407,7 +407,7 @@ std::string writeScene(const Scene& scene) {
     json["k_sort"] = scene.k_sort;
   }
   json["payload"] = payloadNames()[scene.payload];
-  json["show"] = displayNames()[scene.display];
+  json["show"] = shownName(scene);
   json["tail"] = tailNames()[scene.tail];
   json["low_shade"] = lowShadeNames()[scene.low_shade];
   if (scene.core_taps != 0) {
@@ -450,8 +450,22 @@ const std::vector<std::string>& captureNames() {
 }
 
 const std::vector<std::string>& displayNames() {
-  static const std::vector<std::string> names{"shaded", "strand", "root-tip", "width", "depth", "layers"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"shaded", "strand", "root-tip", "width", "depth", "layers"};
+    all.insert(all.end(), coloringNames().begin() + 1, coloringNames().end());
+    return all;
+  }();
   return names;
+}
+
+void setShown(Scene& scene, uint32_t index) {
+  const bool display = index <= FLK_DISPLAY_LAYERS;
+  scene.display = display ? index : uint32_t{FLK_DISPLAY_SHADED};
+  scene.coloring = display ? StrandColoring::none : static_cast<StrandColoring>(index - FLK_DISPLAY_LAYERS);
+}
+
+const std::string& shownName(const Scene& scene) {
+  return scene.coloring == StrandColoring::none ? displayNames()[scene.display] : coloringNames()[static_cast<size_t>(scene.coloring)];
 }
 
 }  // namespace forelock::samples

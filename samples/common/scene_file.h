@@ -5,6 +5,7 @@
 #include "camera.h"
 #include "scene_keys.h"
 #include "scene_light.h"
+#include "strand_color.h"
 
 #include <forelock/render.h>
 #include <glm/vec3.hpp>
@@ -80,6 +81,7 @@ struct Scene {
   uint32_t k = 0, k_sort = 0;            // as in FlkFrame
   uint32_t payload = FLK_PAYLOAD_DEFAULT;
   uint32_t display = FLK_DISPLAY_SHADED;
+  StrandColoring coloring = StrandColoring::none;  // other than none: display is FLK_DISPLAY_SHADED
   uint32_t tail = FLK_TAIL_DEFAULT;
   uint32_t core_taps = 0;                // as in FlkFrame
   uint32_t low_shade = FLK_LOW_SHADE_DEFAULT;
@@ -100,7 +102,9 @@ std::string writeScene(const Scene& scene);
 // Names as the command and scene files spell them; in the order of the FLK_... values.
 const std::vector<std::string>& methodNames();
 const std::vector<std::string>& payloadNames();
-const std::vector<std::string>& displayNames();
+const std::vector<std::string>& displayNames();  // then those of coloringNames() from its second
+void setShown(Scene& scene, uint32_t index);      // by an index of displayNames()
+const std::string& shownName(const Scene& scene);
 const std::vector<std::string>& tailNames();
 const std::vector<std::string>& lowShadeNames();
 const std::vector<std::string>& captureNames();

@@ -237,7 +237,7 @@ Painter::Sounding Painter::sound(const Camera& camera) {
 
 Picture Painter::draw(const Camera& camera, double exposure) {
   const Scene& scene = stage_.scene;
-  const bool shaded = scene.display == FLK_DISPLAY_SHADED;
+  const bool shaded = scene.display == FLK_DISPLAY_SHADED && scene.coloring == StrandColoring::none;
   Picture picture;
   picture.exposure = exposure > 0.0 ? exposure : 1.0;
   Sounding sounding;

@@ -125,7 +125,7 @@ void printJson(const Stage& stage, const Planned& planned) {
   json["tail"] = tailNames()[stage.scene.tail];
   json["capture"] = captureNames()[stage.scene.capture];
   json["lights"] = stage.scene.lights.size();
-  json["show"] = displayNames()[stage.scene.display];
+  json["show"] = shownName(stage.scene);
   json["rect"] = planned.info.rect;
   json["node_capacity"] = planned.info.node_capacity;
   json["full_shade_taps"] = planned.info.full_shade_taps;

@@ -54,9 +54,13 @@ glm::dvec3 readColor(const char* option, const std::string& text) {
 
 }  // namespace
 
-void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
+void addSceneOptions(CLI::App& command, SceneArguments& arguments, std::vector<std::string>* assets) {
   const auto given = [](const std::vector<std::string>& names) { return CLI::IsMember(names); };
-  command.add_option("ASSET", arguments.asset, "A strand file, a recipe or groom:NAME; not needed with --scene");
+  if (assets) {
+    command.add_option("ASSET", *assets, "A strand file, a recipe or groom:NAME, or several, or a folder; not needed with --scene");
+  } else {
+    command.add_option("ASSET", arguments.asset, "A strand file, a recipe or groom:NAME; not needed with --scene");
+  }
   command.add_option("--scene", arguments.scene, "A scene file (docs/scene.md); other options change what it says")
       ->type_name("FILE.json");
   command.add_option("--size", arguments.size, "Of the picture in pixels [1024x1024, or the stored camera's]")
@@ -97,7 +101,9 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
   command.add_flag("--no-head", arguments.no_head, "Draw no bust [drawn under grooms that lie on it]")
       ->excludes(head)->group(look);
   command.add_option("--color", arguments.show,
-                     "What colours mean: shaded, strand (one a strand), root-tip, width (in pixels), depth, layers")
+                     "shaded; of the drawing: width (in pixels), depth, layers (fragments a pixel)\n"
+                     "of the strands: strand (one a strand), root-tip, curvature, length, segments (each by its\n"
+                     "strand's mean), thickness, groups, guides (beside follow strands), bad (faults in red)")
       ->check(given(displayNames()))->type_name("MODE")->group(look);
 
   const char* method = "Method (docs/methods.md section 6)";
@@ -180,7 +186,7 @@ Scene makeScene(const CLI::App& command, const SceneArguments& arguments) {
   if (asked("--background")) scene.background = readColor("--background", arguments.background);
   if (asked("--head")) scene.head = true;
   if (asked("--no-head")) scene.head = false;
-  if (asked("--color")) scene.display = indexOf(displayNames(), arguments.show);
+  if (asked("--color")) setShown(scene, indexOf(displayNames(), arguments.show));
   if (asked("--method")) scene.method = indexOf(methodNames(), arguments.method);
   if (asked("--k")) scene.k = arguments.k == 0 ? FLK_K_NONE : arguments.k;
   if (asked("--k-sort")) scene.k_sort = arguments.k_sort;

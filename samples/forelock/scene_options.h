@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <vector>
 
 namespace forelock::samples {
 
@@ -17,7 +18,8 @@ struct SceneArguments {
   bool head = false, no_head = false, no_shadow = false;
 };
 
-void addSceneOptions(CLI::App& command, SceneArguments& arguments);
+// `assets`: where several may be named, else one, which becomes arguments.asset.
+void addSceneOptions(CLI::App& command, SceneArguments& arguments, std::vector<std::string>* assets = nullptr);
 
 // The scene that was asked for. Throws UsageError or AssetError.
 Scene makeScene(const CLI::App& command, const SceneArguments& arguments);

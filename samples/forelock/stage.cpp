@@ -2,11 +2,12 @@
 #include "stage.h"
 
 #include "bust.h"
+#include "colored_stage.h"
 #include "commands.h"
-#include "image.h"
 #include "progress.h"
-#include "strand_statistics.h"
+#include "stray.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -45,7 +46,21 @@ void collectSeen(Stage& stage) {
     FlkStrands strands = {};
     flkAssetGetStrands(asset.opened.asset.get(), &strands);
     const double* m = asset.world_from_hair;
+    const std::vector<uint8_t> stray = findStrayStrands(strands);
+    if (!stray.empty()) {
+      const auto count = static_cast<uint64_t>(std::count(stray.begin(), stray.end(), uint8_t{1}));
+      stage.notes.push_back(asset.opened.label + ": " + groupedDigits(count) + (count == 1 ? " strand lies" : " strands lie") +
+                            " so far off that the picture leaves " + (count == 1 ? "it" : "them") + " outside; first is strand " +
+                            std::to_string(std::find(stray.begin(), stray.end(), uint8_t{1}) - stray.begin()));
+    }
+    uint32_t strand = 0;
     for (size_t v = 0; v < strands.vertex_count; v += step) {
+      while (v >= strands.first_vertex[strand + 1]) {
+        ++strand;
+      }
+      if (!stray.empty() && stray[strand] != 0) {
+        continue;
+      }
       const float* p = strands.positions + 3 * v;
       glm::dvec3 world(m[12], m[13], m[14]);
       for (int column = 0; column < 3; ++column) {
@@ -69,67 +84,27 @@ void collectSeen(Stage& stage) {
   }
 }
 
-glm::dvec3 mean(const float* rgb, size_t count) {
-  glm::dvec3 sum(0.0);
-  for (size_t i = 0; i < count; ++i) {
-    sum += glm::dvec3(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]);
-  }
-  return sum / static_cast<double>(std::max<size_t>(count, 1));
-}
-
-void loadRootImage(const std::string& path, StagedAsset& asset) {
-  if (!asset.info.has_root_uvs) {
-    throw AssetError(FLK_ERROR_INVALID_ARGUMENT,
-                     asset.opened.label + ": has no root UVs, which root_image needs: .tfx files and grooms have them");
-  }
-  Image image;
-  try {
-    image = readImage(path);
-  } catch (const std::runtime_error& error) {
-    throw AssetError(FLK_ERROR_IO, path + ": " + error.what());
-  }
-  asset.root_pixels.resize(size_t{3} * image.width * image.height);
-  for (size_t i = 0; i < asset.root_pixels.size(); ++i) {
-    const float value = image.rgba[i / 3 * 4 + i % 3];
-    asset.root_pixels[i] = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
-  }
-  asset.root_image = {asset.root_pixels.data(), image.width, image.height};
-}
-
-// What an asset looks like by itself and by what the scene wants of it.
-void stageLook(const SceneAsset& wanted, StagedAsset& asset) {
-  asset.material = wanted.material;
-  asset.follow = {wanted.follow.count, static_cast<float>(wanted.follow.radius_mm * 1e-3),
-                  static_cast<float>(wanted.follow.spread_tip), wanted.follow.seed};
-  asset.flags = wanted.ignore_colors ? FLK_HAIR_IGNORE_COLORS : 0;
-  double scale = static_cast<double>(asset.material.width_scale);
-  const double diameter_mm = 2e3 * static_cast<double>(asset.info.max_radius);
-  if (wanted.width_mm > 0.0) {
-    scale = std::min(wanted.width_mm / diameter_mm, 1e6);
-  } else if (!asset.info.has_radii) {
-    scale *= followWidthScale(asset.info, wanted.follow.count);
-  }
-  asset.material.width_scale = static_cast<float>(scale);
-  asset.width_mm = diameter_mm * scale;
-
+// Strands that hang along another axis than the one that was named: told, never turned.
+void noteUpAxis(Stage& stage, const StagedAsset& asset) {
   FlkStrands strands = {};
   flkAssetGetStrands(asset.opened.asset.get(), &strands);
-  const bool own_colors = strands.colors && !wanted.ignore_colors;
-  if (!wanted.root_image.empty()) {
-    loadRootImage(wanted.root_image, asset);
+  glm::dvec3 fall(0.0);
+  for (uint32_t s = 0; s < strands.strand_count; ++s) {
+    const float* root = strands.positions + size_t{3} * strands.first_vertex[s];
+    const float* tip = strands.positions + size_t{3} * (strands.first_vertex[s + 1] - 1);
+    const glm::dvec3 d = glm::dvec3(tip[0], tip[1], tip[2]) - glm::dvec3(root[0], root[1], root[2]);
+    const double length = glm::length(d);
+    fall += length > 0.0 ? d / length : d;
   }
-  if (!wanted.color_given && (own_colors || asset.root_image.width > 0)) {
-    std::fill(asset.material.color, asset.material.color + 3, 1.0f);
-  }
-  const FlkMaterial& m = asset.material;
-  const double tip = 0.5 * static_cast<double>(m.tip_blend);
-  asset.reflectance = glm::mix(glm::dvec3(m.color[0], m.color[1], m.color[2]),
-                               glm::dvec3(m.tip_color[0], m.tip_color[1], m.tip_color[2]), tip);
-  if (own_colors) {
-    asset.reflectance *= mean(strands.colors, strands.vertex_count);
-  }
-  if (asset.root_image.width > 0) {
-    asset.reflectance *= mean(asset.root_pixels.data(), asset.root_pixels.size() / 3);
+  fall /= strands.strand_count;
+  const bool z_up = stage.scene.camera.up == UpAxis::Z;
+  const double along = z_up ? fall.z : fall.y, other = z_up ? fall.y : fall.z;
+  const float* low = asset.info.min_bounds;
+  const float* high = asset.info.max_bounds;
+  const int up = z_up ? 2 : 1, or_up = z_up ? 1 : 2;  // hair that is combed back is not as long as it is high
+  if (other < -0.5 && std::fabs(along) < 0.35 && high[or_up] - low[or_up] > high[up] - low[up]) {
+    stage.notes.push_back(asset.opened.label + ": strands hang along -" + (z_up ? "y" : "z") + "; if that is down, use --up " +
+                          (z_up ? "y" : "z"));
   }
 }
 
@@ -150,7 +125,7 @@ Stage openStage(const Scene& scene) {
     }
     printMessages(*asset.opened.messages, false);
     flkAssetGetInfo(asset.opened.asset.get(), &asset.info);
-    stageLook(wanted, asset);
+    stageLook(wanted, asset, stage.notes);
     placeAsset(wanted, scene.camera.up, asset.world_from_hair);
     on_bust = on_bust || (asset.opened.recipe && asset.opened.recipe->drape_on_bust);
   }
@@ -178,6 +153,15 @@ Stage openStage(const Scene& scene) {
     stage.scene.head = on_bust;
   }
   collectSeen(stage);
+  for (const StagedAsset& asset : stage.assets) {
+    if (!asset.opened.recipe && !stage.scene.camera.placed) {
+      noteUpAxis(stage, asset);
+    }
+  }
+  stage.legend = displayLegend(scene.display);
+  if (scene.coloring != StrandColoring::none) {
+    return coloredStage(stage, scene.coloring);
+  }
   return stage;
 }
 
@@ -260,108 +244,6 @@ std::vector<Hair> planHairs(FlkContext context, const Stage& stage) {
     hairs.push_back(std::move(hair));
   }
   return hairs;
-}
-
-StagedFrame::StagedFrame(const Stage& stage, const Camera& camera, const std::vector<Hair>& hairs, double exposure,
-                         uint32_t width, uint32_t height)
-    : frame(frameDesc()), ambient_sh{}, modifiers{} {
-  const Scene& scene = stage.scene;
-  for (const SceneLight& wanted : scene.lights) {
-    FlkLight& light = lights.emplace_back();
-    light.kind = wanted.kind;
-    const glm::dvec3 towards = towardsLight(wanted, camera);
-    for (int i = 0; i < 3; ++i) {
-      light.direction[i] = static_cast<float>(towards[i]);
-      light.radiance[i] = static_cast<float>(wanted.color[i] * wanted.intensity * exposure);
-      light.position[i] = wanted.position[i];
-    }
-    light.range = static_cast<float>(wanted.range_m);
-    light.source_radius = static_cast<float>(wanted.source_radius_mm * 1e-3);
-    light.inner_angle = static_cast<float>(wanted.inner_angle_deg * kDegree);
-    light.outer_angle = static_cast<float>(wanted.outer_angle_deg * kDegree);
-    light.casts_shadow = wanted.shadow ? 1 : 0;
-    light.shadow_size = wanted.shadow_size;
-  }
-  Harmonics harmonics;
-  if (stageHarmonics(stage, harmonics)) {
-    for (size_t i = 0; i < 27; ++i) {
-      ambient_sh[i] = static_cast<float>(harmonics[i / 3][static_cast<int>(i % 3)] * exposure);
-    }
-    frame.ambient_sh = ambient_sh;
-  }
-  if (scene.near_fade) {
-    FlkOpacityModifier& fade = modifiers[frame.opacity_modifier_count++];
-    fade.kind = FLK_OPACITY_NEAR_FADE;
-    fade.start = static_cast<float>(scene.near_fade->start_m);
-    fade.end = static_cast<float>(scene.near_fade->end_m);
-  }
-  if (scene.lens) {
-    FlkOpacityModifier& lens = modifiers[frame.opacity_modifier_count++];
-    lens.kind = FLK_OPACITY_LENS;
-    lens.center[0] = static_cast<float>(scene.lens->center[0] * width);
-    lens.center[1] = static_cast<float>(scene.lens->center[1] * height);
-    lens.radius = static_cast<float>(scene.lens->radius * height);
-    lens.feather = static_cast<float>(scene.lens->feather * height);
-    lens.inside = static_cast<float>(scene.lens->inside);
-  }
-  frame.opacity_modifiers = modifiers;
-  for (int i = 0; i < 3; ++i) {
-    frame.ambient[i] = static_cast<float>(scene.ambient[i] * exposure);
-  }
-  for (const Hair& hair : hairs) {
-    handles.push_back(hair);
-  }
-  viewMatrix(camera, frame.view_from_world);
-  projectionMatrix(camera, stage.aspect(), frame.clip_from_view);
-  frame.reversed_depth = camera.reversed_depth ? 1 : 0;
-  frame.hairs = handles.data();
-  frame.hair_count = static_cast<uint32_t>(handles.size());
-  frame.lights = lights.data();
-  frame.light_count = static_cast<uint32_t>(lights.size());
-  frame.method = scene.method;
-  frame.k = scene.k;
-  frame.k_sort = scene.k_sort;
-  frame.payload = scene.payload;
-  frame.display = scene.display;
-  frame.tail = scene.tail;
-  frame.core_taps = scene.core_taps;
-  frame.low_shade = scene.low_shade;
-  frame.capture = scene.capture;
-  frame.timestamps = 1;
-}
-
-std::string methodText(const Scene& scene) {
-  const std::string capture = scene.capture == FLK_CAPTURE_DEFAULT ? "" : ", capture by " + captureNames()[scene.capture];
-  if (scene.display != FLK_DISPLAY_SHADED) {
-    return "colours show " + displayNames()[scene.display] + capture;
-  }
-  std::string text = methodNames()[scene.method];
-  const uint32_t k = scene.k == FLK_K_NONE ? 0 : scene.k == 0 ? 8 : scene.k;
-  const uint32_t k_sort = scene.k_sort == 0 ? std::max(8u, k) : scene.k_sort;
-  const bool has_core = scene.method == FLK_METHOD_CORE_TAIL || scene.method == FLK_METHOD_CORE_ONLY;
-  const bool has_tail = scene.method == FLK_METHOD_CORE_TAIL || scene.method == FLK_METHOD_ALL_LOW;
-  if (has_core) {
-    text += ", k " + std::to_string(k);
-  }
-  if (has_core || has_tail || scene.method == FLK_METHOD_FORWARD) {
-    text += ", k_sort " + std::to_string(k_sort);
-  }
-  if (has_tail && scene.tail == FLK_TAIL_LIST) {
-    text += ", tail in list order";
-  }
-  if (has_tail && scene.tail == FLK_TAIL_ONCE) {
-    text += ", tail shaded once";
-  }
-  if (has_tail && scene.low_shade != FLK_LOW_SHADE_DEFAULT) {
-    text += ", cheap shade with " + lowShadeNames()[scene.low_shade];
-  }
-  if (scene.core_taps != 0 && scene.core_taps != 25 && scene.method != FLK_METHOD_ALL_LOW) {
-    text += ", " + std::to_string(scene.core_taps) + (scene.core_taps == 1 ? " tap" : " taps");
-  }
-  if (scene.payload == FLK_PAYLOAD_PAPER && scene.method != FLK_METHOD_HARD) {
-    text += ", payload of the paper";
-  }
-  return text + capture;
 }
 
 }  // namespace forelock::samples

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "asset_source.h"
+#include "legend.h"
 #include "scene_file.h"
 
 #include <forelock/forelock.hpp>
@@ -29,12 +30,18 @@ struct Stage {
   std::vector<StagedAsset> assets;
   std::vector<glm::vec3> seen;  // points that framing must see: an even sample of the vertices, and the head (world, m)
   double radius = 0.0;          // (m) the widest vertex's
+  Legend legend;                // of its colours
+  std::vector<std::string> notes;  // for a person: what is not in the picture, what may be meant otherwise
 
   double aspect() const { return static_cast<double>(scene.width) / static_cast<double>(scene.height); }
 };
 
-// Shows progress; prints what the library has to say of the assets. Throws AssetError or UsageError.
+// Shows progress; prints what the library has to say of the assets. With the scene's colouring. Throws AssetError or UsageError.
 Stage openStage(const Scene& scene);
+
+// Material, width and follow strands of an opened asset: its own, and what the scene wants of it. What was decided otherwise than asked
+// for goes into `notes`. Throws AssetError.
+void stageLook(const SceneAsset& wanted, StagedAsset& asset, std::vector<std::string>& notes);
 
 // View `turn` of `turns` around the hair.
 Camera stageCamera(const Stage& stage, uint32_t turn, uint32_t turns);

@@ -32,7 +32,7 @@ void refuseUnmirrored(const Scene& scene, const std::string& file) {
   if (scene.near_fade) refuse("near_fade");
   if (scene.lens) refuse("lens");
   if (scene.head && *scene.head) refuse("head");
-  if (scene.display != FLK_DISPLAY_SHADED) refuse("show");
+  if (scene.display != FLK_DISPLAY_SHADED || scene.coloring != StrandColoring::none) refuse("show");
   if (scene.lights.empty() && !scene.sky && !scene.ambient_sh && scene.ambient == glm::dvec3(0.0))
     throw UsageError(file + ": lights is empty and nothing else shines, a study needs light");
 }

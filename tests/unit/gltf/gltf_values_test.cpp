@@ -103,7 +103,7 @@ TEST(GltfValues, AttributesOnSomePrimitivesAreFilledWithDefaultsAndNamed) {
   middle["COLOR_0"] = maker.accessor<float>(kFloat, "VEC3", 2, {0, 0, 0, 0, 0, 0});
   middle["_INVERSE_MASS"] = maker.accessor<float>(kFloat, "SCALAR", 2, {0, 0});
   const GltfStrands read = readMade(maker);
-  const float usual = 40e-6f * (100'000.0f / 3);
+  const float usual = 0.5f * 1.0f / 1000;  // three strands, one unit long: the cap of the rule
   EXPECT_EQ(read.strands.radii[0], usual);
   EXPECT_EQ(read.strands.radii[2], 0.25f);
   EXPECT_NE(read.strands.radii[3], read.strands.radii[3]) << "what is in the file is left to the library to judge";

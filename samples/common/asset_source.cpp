@@ -197,6 +197,7 @@ OpenedAsset openAsset(const std::string& source, const ProgressFunction& progres
   FlkAssetOptions options;
   OpenedAsset opened = prepare(source, options);
   options.points_per_strand = how.points_per_strand;
+  options.flags = how.copy_file ? FLK_ASSET_COPY_FILE : 0;
   FlkAsset asset = nullptr;
   const FlkResult result = flkAssetLoadFile(source.c_str(), &options, &asset);
   if (result == FLK_ERROR_IO && isName(source) && !fs::exists(source)) {

@@ -63,9 +63,9 @@ std::vector<AssetFinding> findingsOf(const OpenedAsset& opened);
 // Called from any thread with work done and work to do.
 using ProgressFunction = std::function<void(uint64_t done, uint64_t total)>;
 
-// What a file may not say of itself.
 struct OpenOptions {
-  uint32_t points_per_strand = 0;  // of a PLY file of bare points; 0: none
+  uint32_t points_per_strand = 0;  // of a PLY file of bare points, which does not say it; 0: none
+  bool copy_file = false;          // for a file that another program may be writing: FLK_ASSET_COPY_FILE
 };
 
 // Opens a strand file (also glTF, whatever it is called), a recipe file (*.json) or groom:NAME. Throws AssetError.

@@ -121,7 +121,7 @@ Stage openStage(const Scene& scene) {
     {
       Progress progress("opening " + wanted.source);
       asset.opened = openAsset(wanted.source, [&](uint64_t done, uint64_t total) { progress.update(done, total); },
-                               {wanted.points_per_strand});
+                               {wanted.points_per_strand, true});  // --watch: its exporter may be at it
     }
     printMessages(*asset.opened.messages, false);
     flkAssetGetInfo(asset.opened.asset.get(), &asset.info);

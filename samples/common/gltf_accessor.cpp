@@ -101,6 +101,10 @@ void GltfAccessors::applySparse(const tinygltf::Accessor& from, GltfAccessor& to
   // Zeros cost nothing in the file: no more of them than it has bytes.
   if (from.bufferView < 0 && to.count_ > buffer_bytes_)
     refuseGltf("GLTF_FIELD", who + ".count is " + std::to_string(to.count_) + " with nothing but zeros below its sparse values: export the file again");
+  // Many accessors over the same bytes: what their copies take together is bounded by the file too.
+  sparse_bytes_ += to.count_ * element;
+  if (sparse_bytes_ > 64 * buffer_bytes_ + (uint64_t{1} << 20))
+    refuseGltf("GLTF_TOO_LARGE", "its sparse accessors unfold to more than 64 times its buffers: export it again without sparse accessors", FLK_ERROR_LIMIT);
   to.dense_.resize(to.count_ * element);
   for (uint64_t i = 0; to.data_ && i < to.count_; ++i) std::memcpy(&to.dense_[i * element], to.data_ + i * to.stride_, element);
 

@@ -50,6 +50,7 @@ private:
   const tinygltf::Model& model_;
   uint64_t buffer_bytes_ = 0;
   std::map<int, GltfAccessor> proven_;
+  mutable uint64_t sparse_bytes_ = 0;  // copies made for sparse accessors, all together
 };
 
 }  // namespace forelock::samples

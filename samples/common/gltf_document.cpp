@@ -83,11 +83,14 @@ void checkExtensions(const nlohmann::json& document) {
 std::vector<std::vector<unsigned char>> loadBuffers(const CheckedGltf& checked, std::vector<unsigned char>& bytes, const Chunks& chunks,
                                                     const std::filesystem::path& folder) {
   std::vector<std::vector<unsigned char>> buffers(checked.buffer_bytes.size());
+  uint64_t all = 0;
   for (size_t i = 0; i < buffers.size(); ++i) {
     const std::string where = "buffers[" + std::to_string(i) + "]";
     const uint64_t size = checked.buffer_bytes[i];
     if (!checked.buffer_uris[i].empty()) {
       buffers[i] = readGltfBuffer(checked.buffer_uris[i], size, folder, where + ".uri");
+      // The same file may be named again and again.
+      if ((all += buffers[i].size()) > uint64_t{20} << 30) refuseGltf("GLTF_TOO_LARGE", "with " + where + " its buffers are longer than 20 GiB together: split the file", FLK_ERROR_LIMIT);
       continue;
     }
     if (i != 0 || !chunks.has_binary) {

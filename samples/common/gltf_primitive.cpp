@@ -215,7 +215,7 @@ EditableStrands GltfCollector::finish() {
   for (const auto& [accessor, used] : used_)
     if (const auto unused = std::count(used.begin(), used.end(), false); unused > 0)
       findings_.note(GltfFinding::vertices_unused, GltfFindings::kNoStrand, uint64_t(unused));
-  if (strandCount() == 0) refuseGltf("GLTF_NO_LINES", "its lines have no segment that leads from one vertex to another: export it again", FLK_ERROR_EMPTY_ASSET);
+  if (strandCount() == 0 || strands_.vertices() < 2) refuseGltf("GLTF_NO_LINES", "its lines have no segment that leads from one vertex to another: export it again", FLK_ERROR_EMPTY_ASSET);
   // Nearly the library's default width (docs/findings.md); white; free; the corner of the scalp.
   float side = 0;
   for (size_t axis = 0; axis < 3; ++axis) {

@@ -21,7 +21,12 @@ struct GltfRefusal : std::runtime_error {
 // Words of the file as they may be printed: no control characters, at most `longest` bytes.
 inline std::string printable(std::string text, size_t longest = 80) {
   const bool cut = text.size() > longest;
-  if (cut) text.resize(longest);
+  if (cut) {
+    text.resize(longest);
+    // No half character at the end.
+    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) text.pop_back();
+    if (!text.empty() && static_cast<unsigned char>(text.back()) >= 0xc0) text.pop_back();
+  }
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
   return cut ? text + "..." : text;

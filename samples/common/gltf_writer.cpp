@@ -220,6 +220,8 @@ void saveGltf(const OpenedAsset& opened, const std::string& path) {
     return;
   }
   // CT2Hair's files are called .bin too: only the buffer of a .gltf file that is replaced may be replaced with it.
+  if (buffer_path.filename().string().find('\\') != std::string::npos)
+    throw AssetError(FLK_ERROR_IO, path + ": a name with a backslash cannot be referred to from a .gltf file: choose another name, or .glb, which is a single file");
   std::error_code error;
   if (fs::exists(buffer_path, error) && !fs::exists(path, error))
     throw AssetError(FLK_ERROR_IO, path + ": its vertices would go to " + buffer_path.string() +

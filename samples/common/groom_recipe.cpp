@@ -192,13 +192,19 @@ Recipe parseRecipe(const std::string& text, const std::string& name) {
   return readRecipe(json, name);
 }
 
-Recipe loadRecipe(const std::string& path) {
+std::string readSmallText(const std::string& path, const char* what) {
+  constexpr uintmax_t largest = 16u << 20;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw RecipeError(std::filesystem::exists(path, error) ? "cannot be read as a " + std::string(what) + " file: it is no regular file" : "cannot be read as a " + std::string(what) + " file: it is not there");
+  if (std::filesystem::file_size(path, error) > largest) throw RecipeError("cannot be read as a " + std::string(what) + " file: it is longer than 16 MiB, which no recipe or scene is");
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) {
-    throw RecipeError("cannot be read as a recipe file");
-  }
-  return parseRecipe(text.str(), std::filesystem::path(path).stem().string());
+  if (!file || !(text << file.rdbuf())) throw RecipeError("cannot be read as a " + std::string(what) + " file: check its permissions, and that it is not empty");
+  return text.str();
+}
+
+Recipe loadRecipe(const std::string& path) {
+  return parseRecipe(readSmallText(path, "recipe"), std::filesystem::path(path).stem().string());
 }
 
 }  // namespace forelock::samples

@@ -126,6 +126,9 @@ struct Recipe {
 // Throws RecipeError. `text` is JSON; `name` is used where the recipe gives none.
 Recipe parseRecipe(const std::string& text, const std::string& name);
 
+// The text of a recipe or scene, which `what` is: a regular file of 16 MiB at most. Throws RecipeError.
+std::string readSmallText(const std::string& path, const char* what);
+
 // Throws RecipeError, also when the file cannot be read.
 Recipe loadRecipe(const std::string& path);
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "image.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
@@ -76,11 +79,23 @@ void writeThroughLibrary(const std::string& path, const Image& image, bool is_pn
     spec.attribute("compression", "zip");
   }
   const void* pixels = is_png ? static_cast<const void*>(encoded.data()) : image.rgba.data();
+  // Into memory first: the library does not notice a disk that is full.
+  OIIO::Filesystem::IOVecOutput memory;
+  OIIO::Filesystem::IOProxy* proxy = &memory;
+  spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   const bool good = output->open(path, spec) &&
                     output->write_image(is_png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT, pixels) &&
                     output->close();
   if (!good) {
     throw std::runtime_error(output->geterror());
+  }
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (!file) {
+    throw std::runtime_error(std::string("cannot be written: ") + std::strerror(errno));
+  }
+  const bool whole = std::fwrite(memory.buffer().data(), 1, memory.buffer().size(), file) == memory.buffer().size();
+  if (std::fclose(file) != 0 || !whole) {
+    throw std::runtime_error("cannot be written (disk full?)");
   }
 }
 

@@ -14,60 +14,68 @@ namespace {
 
 constexpr size_t kNeighbours = 16;  // a Delaunay star has six on average
 
-// Roots in cubes of a grid, for the nearest ones of each.
-class RootGrid {
+// Places of roots, each once, in a k-d tree: halves of the widest axis, whatever stray roots there are.
+class ScalpTree {
 public:
-  explicit RootGrid(const std::vector<float>& roots) : roots_(roots) {
-    glm::dvec3 low(1e300), high(-1e300);
-    const size_t count = roots.size() / 3;
-    for (size_t i = 0; i < count; ++i) low = glm::min(low, root(i)), high = glm::max(high, root(i));
-    low_ = low;
-    // A scalp is a surface: about two roots a cube if it were a square of that size.
-    cell_ = std::max(glm::length(high - low) * std::sqrt(2.0 / double(count)), 1e-30);
-    for (size_t i = 0; i < count; ++i) cells_[place(root(i))].push_back(uint32_t(i));
-    rings_ = int(std::ceil(glm::length(high - low) / cell_)) + 1;
+  explicit ScalpTree(const std::vector<float>& roots) : roots_(roots) {
+    std::map<std::array<float, 3>, uint32_t> first;
+    for (uint32_t i = 0; i < roots.size() / 3; ++i) {
+      const std::array<float, 3> place{roots[3 * size_t{i}], roots[3 * size_t{i} + 1], roots[3 * size_t{i} + 2]};
+      if (first.emplace(place, i).second) places_.push_back(i);
+    }
+    axes_.resize(places_.size());
+    build(0, places_.size());
   }
 
+  // One root a place.
+  const std::vector<uint32_t>& places() const { return places_; }
   glm::dvec3 root(size_t i) const { return {roots_[3 * i], roots_[3 * i + 1], roots_[3 * i + 2]}; }
 
-  // The nearest ones, nearest first; roots in the same place as `of` are none.
+  // The nearest ones in other places, nearest first.
   std::vector<uint32_t> nearest(uint32_t of, size_t wanted) const {
-    const Place at = place(root(of));
-    std::vector<std::pair<double, uint32_t>> found;
-    for (int ring = 0; ring <= rings_; ++ring) {
-      for (int x = -ring; x <= ring; ++x)
-        for (int y = -ring; y <= ring; ++y)
-          for (int z = -ring; z <= ring; ++z) {
-            if (std::max({std::abs(x), std::abs(y), std::abs(z)}) != ring) continue;
-            const auto cell = cells_.find({at[0] + x, at[1] + y, at[2] + z});
-            if (cell == cells_.end()) continue;
-            for (const uint32_t other : cell->second) {
-              const glm::dvec3 away = root(other) - root(of);
-              if (glm::dot(away, away) > 0) found.emplace_back(glm::dot(away, away), other);
-            }
-          }
-      std::sort(found.begin(), found.end());
-      // What has not been looked at is at least `ring` cubes away.
-      if (found.size() >= wanted && found[wanted - 1].first <= ring * cell_ * ring * cell_) break;
-      if (ring > 24 && found.size() >= 3) break;  // a lone root far from the others
-    }
+    std::vector<std::pair<double, uint32_t>> found;  // a heap, the farthest on top
+    search(0, places_.size(), of, wanted, found);
+    std::sort_heap(found.begin(), found.end());
     std::vector<uint32_t> roots;
-    for (size_t i = 0; i < std::min(wanted, found.size()); ++i) roots.push_back(found[i].second);
+    for (const auto& [square, root] : found) roots.push_back(root);
     return roots;
   }
 
 private:
-  using Place = std::array<int, 3>;
-  Place place(const glm::dvec3& p) const {
-    const glm::dvec3 q = (p - low_) / cell_;
-    return {int(q.x), int(q.y), int(q.z)};
+  void build(size_t begin, size_t end) {
+    if (end - begin < 2) return;
+    glm::dvec3 low(1e300), high(-1e300);
+    for (size_t i = begin; i < end; ++i) low = glm::min(low, root(places_[i])), high = glm::max(high, root(places_[i]));
+    const glm::dvec3 side = high - low;
+    const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+    const size_t middle = begin + (end - begin) / 2;
+    axes_[middle] = uint8_t(axis);
+    std::nth_element(places_.begin() + std::ptrdiff_t(begin), places_.begin() + std::ptrdiff_t(middle), places_.begin() + std::ptrdiff_t(end),
+                     [&](uint32_t a, uint32_t b) { return root(a)[axis] != root(b)[axis] ? root(a)[axis] < root(b)[axis] : a < b; });
+    build(begin, middle);
+    build(middle + 1, end);
+  }
+
+  void search(size_t begin, size_t end, uint32_t of, size_t wanted, std::vector<std::pair<double, uint32_t>>& found) const {
+    if (begin >= end) return;
+    const size_t middle = begin + (end - begin) / 2;
+    const uint32_t at = places_[middle];
+    const glm::dvec3 away = root(at) - root(of);
+    if (at != of) {
+      found.emplace_back(glm::dot(away, away), at);
+      std::push_heap(found.begin(), found.end());
+      if (found.size() > wanted) std::pop_heap(found.begin(), found.end()), found.pop_back();
+    }
+    if (end - begin == 1) return;
+    const double beyond = -away[axes_[middle]];  // how far the root lies past the dividing plane
+    const bool right = beyond > 0;
+    right ? search(middle + 1, end, of, wanted, found) : search(begin, middle, of, wanted, found);
+    if (found.size() < wanted || beyond * beyond < found.front().first) right ? search(begin, middle, of, wanted, found) : search(middle + 1, end, of, wanted, found);
   }
 
   const std::vector<float>& roots_;
-  glm::dvec3 low_{};
-  double cell_ = 1;
-  int rings_ = 1;
-  std::map<Place, std::vector<uint32_t>> cells_;
+  std::vector<uint32_t> places_;
+  std::vector<uint8_t> axes_;  // of the plane through each place
 };
 
 // The direction in which points about the origin are spread least, by power iteration on (trace - covariance).
@@ -118,15 +126,16 @@ std::vector<int> starOfOrigin(const std::vector<glm::dvec2>& points) {
 std::vector<RootTriangle> rootTriangles(const std::vector<float>& roots, double widest_gap) {
   const size_t count = roots.size() / 3;
   if (count < 3) return {};
-  const RootGrid grid(roots);
-  std::vector<std::vector<RootTriangle>> stars(count);
-  std::vector<double> nearest(count, 0);
-  parallelFor(count, 64, [&](size_t i) {
-    const std::vector<uint32_t> around = grid.nearest(uint32_t(i), kNeighbours);
+  const ScalpTree tree(roots);
+  std::vector<std::vector<RootTriangle>> stars(tree.places().size());
+  std::vector<double> nearest(stars.size(), 0);
+  parallelFor(stars.size(), 64, [&](size_t place) {
+    const uint32_t i = tree.places()[place];
+    const std::vector<uint32_t> around = tree.nearest(i, kNeighbours);
     if (around.size() < 2) return;
     std::vector<glm::dvec3> away;
-    for (const uint32_t other : around) away.push_back(grid.root(other) - grid.root(i));
-    nearest[i] = glm::length(away[0]);
+    for (const uint32_t other : around) away.push_back(tree.root(other) - tree.root(i));
+    nearest[place] = glm::length(away[0]);
     const glm::dvec3 normal = leastSpread(away);
     const glm::dvec3 x = glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
     const glm::dvec3 y = glm::cross(normal, x);
@@ -136,10 +145,10 @@ std::vector<RootTriangle> rootTriangles(const std::vector<float>& roots, double 
     for (size_t k = 0; k < star.size(); ++k) {
       const int a = star[k], b = star[(k + 1) % star.size()];
       if (a < 0 || b < 0) continue;
-      RootTriangle triangle{{uint32_t(i), around[size_t(a)], around[size_t(b)]}};
+      RootTriangle triangle{{i, around[size_t(a)], around[size_t(b)]}};
       std::sort(triangle.roots.begin(), triangle.roots.end());
       triangle.area = 0.5 * glm::length(glm::cross(away[size_t(a)], away[size_t(b)]));
-      stars[i].push_back(triangle);
+      stars[place].push_back(triangle);
     }
   });
   std::vector<double> usual;
@@ -152,7 +161,7 @@ std::vector<RootTriangle> rootTriangles(const std::vector<float>& roots, double 
   std::vector<RootTriangle> triangles;
   for (const std::vector<RootTriangle>& star : stars)
     for (const RootTriangle& t : star) {
-      const glm::dvec3 a = grid.root(t.roots[0]), b = grid.root(t.roots[1]), c = grid.root(t.roots[2]);
+      const glm::dvec3 a = tree.root(t.roots[0]), b = tree.root(t.roots[1]), c = tree.root(t.roots[2]);
       if (std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)}) <= longest && t.area > 0) triangles.push_back(t);
     }
   std::sort(triangles.begin(), triangles.end(), [](const RootTriangle& a, const RootTriangle& b) { return a.roots < b.roots; });

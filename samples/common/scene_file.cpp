@@ -328,12 +328,13 @@ Scene parseScene(const std::string& text) {
 }
 
 Scene loadScene(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) {
-    throw SceneError("cannot be read as a scene file");
+  std::string text;
+  try {
+    text = readSmallText(path, "scene");
+  } catch (const RecipeError& wrong) {
+    throw SceneError(wrong.what());
   }
-  Scene scene = parseScene(text.str());
+  Scene scene = parseScene(text);
   const auto fromHere = [&](std::string& name) {
     if (std::filesystem::path(name).is_relative()) {
       name = (std::filesystem::path(path).parent_path() / name).string();

@@ -50,7 +50,7 @@ double CoverageMeter::measure(const EditableStrands& strands, double widening) c
         const double radius = widening * double(strands.radii[v]) / cell;
         if (v > strands.first_vertex[strand]) {
           const double most = std::max(radius, radius_before);
-          const auto from = [&](double value) { return int(std::clamp(std::floor(value), 0.0, points_ - 1.0)); };
+          const auto from = [&](double value) { return int(std::min(std::max(0.0, std::floor(value)), points_ - 1.0)); };  // NaN: 0
           const glm::dvec2 along = at - before;
           const double square = glm::dot(along, along);
           for (int j = from(std::min(at.y, before.y) - most); j <= from(std::max(at.y, before.y) + most); ++j)

@@ -212,7 +212,7 @@ void RootTree::search(size_t begin, size_t end, int axis, const Point& at, doubl
   const double beyond = at[size_t(axis)] - root[size_t(axis)];
   const bool right = beyond > 0;
   search(right ? middle + 1 : begin, right ? end : middle, (axis + 1) % 3, at, limit_squared, found);
-  if (beyond * beyond <= bound()) search(right ? begin : middle + 1, right ? middle : end, (axis + 1) % 3, at, limit_squared, found);
+  if (beyond * beyond < bound() || (found.count < kNearest && beyond * beyond <= bound())) search(right ? begin : middle + 1, right ? middle : end, (axis + 1) % 3, at, limit_squared, found);
 }
 
 RootTree::Found RootTree::nearest(const Point& at, double limit) const {

@@ -92,6 +92,7 @@ private:
 }  // namespace
 
 void addFollowStrands(EditableStrands& strands, uint32_t count, double radius, double spread_tip, uint32_t seed) {
+  if (count > 1023) throw std::length_error("more than 1,023 follow strands beside each");  // their seeds repeat
   refuseTooMany(uint64_t{strands.strands()} * (count + 1), uint64_t{strands.vertices()} * (count + 1));
   EditableStrands all;
   all.first_vertex.push_back(0);

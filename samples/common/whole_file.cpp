@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -95,9 +96,16 @@ std::vector<unsigned char> readWholeFile(const std::string& path, uint64_t large
 void writeWholeFiles(const std::vector<std::pair<std::string, std::span<const unsigned char>>>& files) {
   Temporaries temporaries;
   std::vector<std::string> names;
-  for (const auto& [path, bytes] : files) names.push_back(writeBeside(path, bytes, temporaries));
+  std::vector<std::string> targets;
+  for (const auto& [path, bytes] : files) {
+    std::error_code error;
+    // Renaming onto a link would replace the link, not the file that it names.
+    targets.push_back(std::filesystem::is_symlink(path, error) ? std::filesystem::canonical(path, error).string() : path);
+    if (error && targets.back().empty()) fail(path + ": is a link that leads nowhere: " + error.message());
+    names.push_back(writeBeside(targets.back(), bytes, temporaries));
+  }
   for (size_t i = 0; i < files.size(); ++i) {
-    if (::rename(names[i].c_str(), files[i].first.c_str()) != 0) fail(files[i].first + ": cannot be written: " + std::strerror(errno));
+    if (::rename(names[i].c_str(), targets[i].c_str()) != 0) fail(files[i].first + ": cannot be written: " + std::strerror(errno));
     std::erase(temporaries.names, names[i]);
   }
 }

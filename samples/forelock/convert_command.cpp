@@ -14,7 +14,7 @@ namespace {
 struct ConvertArguments : ConvertEdits {
   std::string in, out;
   uint32_t points_per_strand = 0;
-  bool strict = false;
+  bool strict = false, overwrite = false;
 };
 
 constexpr const char* kExamples =
@@ -38,6 +38,9 @@ int runConvert(const ConvertArguments& arguments) {
   if (!writableFormatOf(arguments.out)) {
     throw UsageError(arguments.out + ": no writer for this extension, use " + writableExtensions());
   }
+  std::error_code error_of_compare;
+  if (!arguments.overwrite && std::filesystem::equivalent(arguments.in, arguments.out, error_of_compare))
+    throw UsageError(arguments.out + ": is the input itself, which is left as it is: name another file, or add --overwrite-input");
   OpenedAsset opened;
   {
     Progress progress("opening " + arguments.in);
@@ -45,7 +48,11 @@ int runConvert(const ConvertArguments& arguments) {
                        {arguments.points_per_strand});
   }
   printMessages(*opened.messages, false);
-  if (arguments.any()) applyEdits(opened, arguments);
+  if (const uint32_t lost = arguments.any() ? applyEdits(opened, arguments) : 0; lost > 0) {
+    std::fprintf(stderr, "forelock: %s: %s strands are lost, which no asset may hold after what was done to them%s\n", arguments.out.c_str(), groupedDigits(lost).c_str(),
+                 arguments.strict ? "; not written, because --strict allows no loss" : "");
+    if (arguments.strict) return kFailed;
+  }
   if (arguments.strict) {
     bool lost = false;
     for (const AssetMessage& message : rehearseSave(opened, arguments.out)) {
@@ -78,6 +85,7 @@ void addConvertCommand(CLI::App& program, int& exit_code) {
   command->add_option("IN", arguments->in, "A strand file, a recipe or groom:NAME")->required();
   command->add_option("OUT", arguments->out, "The file to write: " + writableExtensions())->required();
   command->add_flag("--strict", arguments->strict, "Fail instead of leaving out what the target cannot hold");
+  command->add_flag("--overwrite-input", arguments->overwrite, "Allow OUT to be the input itself");
   addConvertEdits(*command, *arguments);
   addOpenOptions(*command, arguments->points_per_strand);
   command->footer(kExamples);

@@ -10,9 +10,11 @@
 
 #include <forelock/render.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <stdexcept>
 
 namespace forelock::samples {
@@ -88,6 +90,7 @@ void thin(EditableStrands& strands, const ConvertEdits& edits, const std::string
   std::printf("ordered: the first N strands, for every N, are spread like all of them\n");
   if (edits.keep == 0 && edits.keep_share == 0) return;
   takeDefaultWidths(strands, label);
+  if (std::all_of(strands.radii.begin(), strands.radii.end(), [](float radius) { return radius == 0; })) throw std::invalid_argument("all widths are 0: there is nothing to keep");
   const uint32_t before = strands.strands();
   const uint32_t kept = edits.keep ? edits.keep : uint32_t(std::max(1.0, std::round(before * edits.keep_share)));
   FlkMaterial material{};
@@ -100,6 +103,8 @@ void thin(EditableStrands& strands, const ConvertEdits& edits, const std::string
   std::printf("kept %s of %s strands, %.4g times as wide: seen from six sides they cover %.2f %% of what all did\n", groupedDigits(report.kept).c_str(),
               groupedDigits(before).c_str(), report.widening,
               report.coverage_before > 0 ? 100 * report.coverage_after / report.coverage_before : 100.0);
+  if (std::abs(report.coverage_after - report.coverage_before) > 0.01 * report.coverage_before)
+    std::fprintf(stderr, "forelock: %s: so few strands cannot cover as much: widths are held at four times what their number asks for\n", label.c_str());
 }
 
 }  // namespace
@@ -111,6 +116,13 @@ bool ConvertEdits::any() const {
 
 void addConvertEdits(CLI::App& command, ConvertEdits& edits) {
   const std::string group = "On the way, in this order";
+  // CLI11's own range lets NaN through, and shows its bounds with 300 digits.
+  const auto between = [](const std::string& text) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const std::from_chars_result read = std::from_chars(text.data(), end, value);
+    return read.ec == std::errc() && read.ptr == end && value >= 1e-6 && value <= 1e6 ? std::string() : text + " is no number from 0.000001 to 1,000,000";
+  };
   const auto parsed = [](const char* option, auto parse) {
     return [option, parse](const std::string& text) {
       try {
@@ -124,16 +136,16 @@ void addConvertEdits(CLI::App& command, ConvertEdits& edits) {
   command.add_flag("--reverse", edits.reverse, "Swap root and tip of every strand")->group(group);
   command.add_option("--axes", edits.axes, "New axes from old ones: x,z,-y makes y up of z up, x,-z,y the other way")
       ->check(parsed("--axes", parseAxes))->group(group)->type_name("X,Y,Z");
-  command.add_option("--scale", edits.scale, "Positions and widths times this: 0.01 makes metres of centimetres")->check(CLI::PositiveNumber)->group(group);
+  command.add_option("--scale", edits.scale, "Positions and widths times this: 0.01 makes metres of centimetres")->check(between)->group(group);
   command.add_flag("--recentre", edits.recentre, "Move the middle of the hair to the origin")->group(group);
-  command.add_option("--min-length", edits.min_length, "Remove strands that are shorter (unit of the written file)")->check(CLI::PositiveNumber)->group(group);
+  command.add_option("--min-length", edits.min_length, "Remove strands that are shorter (unit of the written file)")->check(between)->group(group);
   command.add_option("--interpolate", edits.interpolate, "Grow strands between guides until there are N, each from its three guides")
       ->check(CLI::Range(2u, 4194304u))->group(group)->type_name("N");
-  command.add_option("--follow", edits.follow, "N follow strands beside each, as strands of their own")->check(CLI::Range(1u, 1023u))->group(group)->type_name("N");
+  CLI::Option* follow = command.add_option("--follow", edits.follow, "N follow strands beside each, as strands of their own")->check(CLI::Range(1u, 1023u))->group(group)->type_name("N");
   command.add_option("--follow-radius", edits.follow_radius_mm, "How far from their guide at most, if the unit is the metre [1]")
-      ->check(CLI::PositiveNumber)->group(group)->type_name("MM");
+      ->check(between)->needs(follow)->group(group)->type_name("MM");
   command.add_option("--resample", edits.resample, "Vertices a strand, evenly along it; says how far lengths are off")->check(CLI::Range(2, 1024))->group(group)->type_name("N");
-  command.add_option("--width", edits.width_mm, "Diameter of every strand, if the unit is the metre")->check(CLI::PositiveNumber)->group(group)->type_name("MM");
+  command.add_option("--width", edits.width_mm, "Diameter of every strand, if the unit is the metre")->check(between)->group(group)->type_name("MM");
   command.add_option("--width-profile", edits.width_profile, "Factors of the width along each strand: 0:1,0.7:0.9,1:0.1 tapers the tip")
       ->check(parsed("--width-profile", parseWidthProfile))->group(group)->type_name("PLACE:FACTOR,...");
   command.add_flag("--flip-v", edits.flip_v, "v of the root UVs becomes 1 - v")->group(group);
@@ -146,7 +158,8 @@ void addConvertEdits(CLI::App& command, ConvertEdits& edits) {
   }, "Keep N strands, or P% of them, spread evenly and widened so that they cover as much")->group(group)->type_name("N|P%");
 }
 
-void applyEdits(OpenedAsset& opened, const ConvertEdits& edits) {
+uint32_t applyEdits(OpenedAsset& opened, const ConvertEdits& edits) {
+  uint32_t lost = 0;
   FlkStrands held{};
   FlkAssetInfo info{};
   flkAssetGetStrands(opened.asset.get(), &held);
@@ -174,6 +187,7 @@ void applyEdits(OpenedAsset& opened, const ConvertEdits& edits) {
       const ResampleReport report = resampleStrands(strands, edits.resample);
       std::printf("resampled to %u vertices a strand: lengths are off by %.2g %% on average, by %.2g %% at most (strand %u)\n", edits.resample,
                   100 * report.mean_error, 100 * report.worst_error, report.worst_strand);
+      if (edits.resample == 2 && !strands.inverse_masses.empty()) std::printf("resampled: with two vertices a strand, roots and tips take the masses of both ends\n");
     }
     if (edits.flip_v) {
       flipV(strands);
@@ -186,11 +200,25 @@ void applyEdits(OpenedAsset& opened, const ConvertEdits& edits) {
   } catch (const std::length_error& wrong) {
     throw AssetError(FLK_ERROR_LIMIT, opened.label + ": " + wrong.what());
   }
-  OpenedAsset edited = assetOf(strands.view(), opened.label);
+  OpenedAsset edited;
+  try {
+    edited = assetOf(strands.view(), opened.label);
+  } catch (const AssetError& wrong) {
+    throw AssetError(wrong.result, std::string(wrong.what()) + " (after what --scale and the other options did to it)");
+  }
+  // What is new about it: of what was there before the source has been said.
+  std::set<std::string> known;
+  for (const AssetMessage& message : *opened.messages) known.insert(message.id);
+  for (const AssetMessage& message : *edited.messages)
+    if (message.severity != FLK_SEVERITY_INFO && known.count(message.id) == 0) std::fprintf(stderr, "forelock: %s (after what was done to it)\n", message.text.c_str());
+  flkAssetGetInfo(edited.asset.get(), &info);
+  lost = strands.strands() - info.strand_count;
   std::swap(opened.asset, edited.asset);  // before the messages that each points to
   std::swap(opened.messages, edited.messages);
   if (edits.min_length > 0 || edits.interpolate || edits.follow || edits.lod_order || edits.keep || edits.keep_share > 0)
     opened.groups.clear(), opened.group_names.clear();  // they were those of the strands as they stood in the source
+  if (lost > 0) opened.groups.clear(), opened.group_names.clear();
+  return lost;
 }
 
 }  // namespace forelock::samples

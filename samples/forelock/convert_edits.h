@@ -21,7 +21,8 @@ struct ConvertEdits {
 
 void addConvertEdits(CLI::App& command, ConvertEdits& edits);
 
-// Replaces the opened asset by the edited one; says what it did, a line each, in the order in which it does it. Throws AssetError.
-void applyEdits(OpenedAsset& opened, const ConvertEdits& edits);
+// Replaces the opened asset by the edited one; says what it did, a line each, in the order in which it does it. Gives how many strands were lost
+// because no asset may hold what became of them. Throws AssetError.
+uint32_t applyEdits(OpenedAsset& opened, const ConvertEdits& edits);
 
 }  // namespace forelock::samples

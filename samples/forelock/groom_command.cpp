@@ -78,7 +78,7 @@ void addGroomCommand(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("groom", "Write a procedural groom to a strand file.");
   auto arguments = std::make_shared<GroomArguments>();
   command->add_option("RECIPE", arguments->recipe, "A recipe: a .json file, or the name of a groom");
-  command->add_option("OUT", arguments->out, "The file to write: .hair, .ply, .tfx or .flk");
+  command->add_option("OUT", arguments->out, "The file to write: " + writableExtensions());
   command->add_option("--strands", arguments->strands, "Strands instead of the recipe's")
       ->check(CLI::Range(1u, 1000000u))->type_name("N");
   command->add_option("--vertices", arguments->vertices, "Vertices of a strand instead of the recipe's")

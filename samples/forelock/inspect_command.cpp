@@ -146,6 +146,7 @@ int inspectMany(const InspectArguments& arguments) {
 }
 
 int runInspect(const InspectArguments& arguments) {
+  if (!arguments.csv.empty() && fs::path(arguments.csv).extension() != ".csv") throw UsageError(arguments.csv + ": --csv writes a file whose name ends in .csv");
   if (arguments.repair.empty() && (arguments.overwrite || !arguments.repair_only.empty() || !arguments.repair_also.empty()))
     throw UsageError("--repair-only, --repair-also and --overwrite-input need --repair OUT");
   if (!arguments.repair.empty() && !writableFormatOf(arguments.repair))

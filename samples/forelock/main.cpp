@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kDescription =
     "Forelock draws, checks, converts and makes strand hair.\n\n"
-    "An ASSET is a strand file (.tfx, .hair, .ply, .data), a groom recipe (.json) or groom:NAME for a recipe that comes with\n"
+    "An ASSET is a strand file (.tfx, .hair, .ply, .gltf, .glb, .flk, .data), a groom recipe (.json) or groom:NAME for a recipe that comes with\n"
     "Forelock; `forelock groom --list` names them.";
 
 constexpr const char* kExamples =

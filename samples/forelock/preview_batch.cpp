@@ -42,7 +42,9 @@ bool looksLikeAsset(const fs::path& path) {
       return false;  // a scene, or something else
     }
   }
-  static const std::set<std::string> known{".tfx", ".hair", ".ply", ".data", ".bin", ".gltf", ".glb"};
+  static const std::set<std::string> known{".tfx", ".hair", ".ply", ".data", ".bin", ".gltf", ".glb", ".flk"};
+  std::error_code error;
+  if (extension == ".bin" && fs::exists(fs::path(path).replace_extension(".gltf"), error)) return false;  // its buffer
   return known.count(extension) > 0;
 }
 

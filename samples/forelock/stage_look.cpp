@@ -74,7 +74,7 @@ void stageLook(const SceneAsset& wanted, StagedAsset& asset, std::vector<std::st
   double scale = static_cast<double>(asset.material.width_scale);
   const double diameter_mm = 2e3 * static_cast<double>(asset.info.max_radius);
   if (wanted.width_mm > 0.0) {
-    scale = std::min(wanted.width_mm / diameter_mm, 1e6);
+    scale = std::min(wanted.width_mm * unit / diameter_mm, 1e6);
   } else if (!asset.info.has_radii) {
     scale *= followWidthScale(asset.info, wanted.follow.count);
   }
@@ -82,11 +82,11 @@ void stageLook(const SceneAsset& wanted, StagedAsset& asset, std::vector<std::st
     asset.material.fibre_spacing *= static_cast<float>(unit);
     asset.follow.radius *= static_cast<float>(unit);
     notes.push_back(asset.opened.label + ": coordinates suggest " + (unit > 100.0 ? "millimetres" : "centimetres") +
-                    ", so what shadows take for the distance of fibres is " + shortNumber(unit) +
+                    ", so millimetres of widths and what shadows take for the distance of fibres are " + shortNumber(unit) +
                     " times as large as for metres; `forelock convert --scale` makes it metres");
   }
   asset.material.width_scale = static_cast<float>(scale);
-  asset.width_mm = diameter_mm * scale;
+  asset.width_mm = diameter_mm * scale / unit;
 
   FlkStrands strands = {};
   flkAssetGetStrands(asset.opened.asset.get(), &strands);

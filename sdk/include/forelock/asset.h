@@ -25,7 +25,7 @@ typedef struct FlkStrands {
   const void* next;             /* NULL */
   uint32_t strand_count;        /* [1, 4,194,304] */
   uint32_t vertex_count;        /* of all strands together [2, 268,435,456] */
-  const uint32_t* first_vertex; /* strand_count + 1 entries, rising, from 0 to vertex_count */
+  const uint32_t* first_vertex; /* strand_count + 1 entries, never falling, from 0 to vertex_count */
   const float* positions;       /* 3 x vertex_count (metre by convention) */
   const float* radii;           /* vertex_count (unit of the positions), half the diameter; NULL: default width */
   const float* root_uvs;        /* 2 x strand_count, on the scalp; NULL: none */
@@ -68,8 +68,8 @@ typedef struct FlkFinding {
 enum {
   FLK_FORMAT_UNKNOWN = 0,
   FLK_FORMAT_TFX = 1,   /* TressFX, binary: versions 3 and 4 are read, 4 is written. Equal vertex counts, root UV,
-                           inverse mass; no widths, no colours */
-  FLK_FORMAT_HAIR = 2,  /* Cem Yuksel's .hair: thickness (read and written as the diameter), colour; no UV, no mass */
+                           inverse mass; widths a strand are read, not written; no colours */
+  FLK_FORMAT_HAIR = 2,  /* Cem Yuksel's .hair: thickness (read and written as the diameter), colour; UVs are read, not written; no mass */
   FLK_FORMAT_TFX_TEXT = 3,    /* TressFX 1 and 2, text, only read: root UV, inverse mass as TressFX implies it */
   FLK_FORMAT_STRAND_DATA = 4, /* USC-HairSalon (.data) and CT2Hair (.bin), only read: positions */
   FLK_FORMAT_PLY = 5,   /* PLY with an element strand, read and written: everything that an asset holds; bare points
@@ -99,7 +99,7 @@ typedef struct FlkAssetInfo {
 } FlkAssetInfo;
 
 /* Makes an asset from arrays, which are copied. Strands that no asset may hold are dropped with a finding.
- * Cost: one pass over the data. FLK_ERROR_INVALID_ARGUMENT: counts or first_vertex do not fit together;
+ * Cost: linear in the data. FLK_ERROR_INVALID_ARGUMENT: counts or first_vertex do not fit together;
  * FLK_ERROR_EMPTY_ASSET: no strand is left. `options` may be NULL. On failure *asset is NULL. Any thread. */
 FLK_API FlkResult flkAssetCreate(const FlkStrands* strands, const FlkAssetOptions* options, FlkAsset* asset);
 

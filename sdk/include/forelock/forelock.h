@@ -66,7 +66,7 @@ enum {
 enum { FLK_SEVERITY_INFO = 0, FLK_SEVERITY_WARNING = 1, FLK_SEVERITY_ERROR = 2 };
 typedef struct FlkMessage {
   uint32_t severity;  /* FLK_SEVERITY_... */
-  const char* id;     /* stable, upper case, for example "TFX_POSITIONS_PAST_END" */
+  const char* id;     /* stable, upper case, for example "TFX_BLOCK_PAST_END" */
   const char* text;   /* one sentence, UTF-8, that names what, where and what to do */
 } FlkMessage;
 /* Called on the thread of the call that causes it; must not call back into Forelock. */

@@ -169,8 +169,8 @@ bool Reader::hasLength(uint32_t strand, const float* values) const noexcept {
 FlkResult Reader::badValue(Block block, std::span<const float> values, float from, float to) const {
   std::size_t at = 0;
   while (at + 1 < values.size() && values[at] >= from && values[at] <= to) ++at;
-  return report.fail(FLK_ERROR_MALFORMED, "COOKED_VALUE", "a value of %s is %g (byte %" PRIu64 "), where %g to %g are possible: %s", block_names[block],
-                     double{values[at]}, table[block].offset + at * 4, double{from}, double{to}, cook_again);
+  return report.fail(FLK_ERROR_MALFORMED, "COOKED_VALUE", "a value of %s is %s (byte %" PRIu64 "), where %s to %s are possible: %s", block_names[block],
+                     Number(double{values[at]}, 6).text, table[block].offset + at * 4, Number(double{from}, 6).text, Number(double{to}, 6).text, cook_again);
 }
 
 // Calls `look` for pieces of the values, having added the same piece of the file to the checksum. True: it matches.
@@ -220,18 +220,13 @@ FlkResult Reader::checkPositions(std::span<const float> values) {
   return FLK_SUCCESS;
 }
 
-// Sentences are for terminals and logs, so they must not hold control characters.
-bool isPrintable(std::string_view text) noexcept {
-  return std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
-}
-
 bool isCode(std::string_view code) noexcept {
   return !code.empty() && std::all_of(code.begin(), code.end(), [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; });
 }
 
 FlkResult Reader::readFindings() {
   constexpr uint64_t record = 64;
-  constexpr uint32_t longest_code = 64, longest_text = 1024, most_findings = 256;
+  constexpr uint32_t longest_code = 64, longest_text = 512, most_findings = 256;
   const std::span<const std::byte> block = blockBytes(Block::findings);
   if (!block.empty() && Checksum::of(block) != table[Block::findings].checksum)
     return checksumFailed("findings", table[Block::findings].offset, table[Block::findings].offset + block.size());
@@ -257,7 +252,7 @@ FlkResult Reader::readFindings() {
     });
     if (finding.count == 0 || finding.severity > FLK_SEVERITY_WARNING || finding.repaired > 1 || finding.strands_listed > 8 || !strands_exist || zero != 0)
       return malformed(at, "a finding", "has a count, severity or strand that no finding has");
-    if (code_size > longest_code || text_size == 0 || text_size > longest_text || !isCode(code) || !isPrintable(text))
+    if (code_size > longest_code || text_size == 0 || text_size > longest_text || !isCode(code) || !isSentence(text))
       return malformed(at, "a finding", "has a code or sentence that no finding has");
     asset.findings.restore(finding, code, text);
   }

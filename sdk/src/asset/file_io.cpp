@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
+#include <cstdlib>
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
@@ -138,6 +140,14 @@ FlkResult readFile(const char* path, uint64_t largest, bool must_copy, const Rep
 
 FlkResult writeFile(const char* path, std::span<const std::byte> bytes, const Report& report,
                     std::pmr::memory_resource* memory) {
+  // Renaming onto a link would replace the link, not the file that it names.
+  char target[PATH_MAX];
+  struct stat link {};
+  if (::lstat(path, &link) == 0 && S_ISLNK(link.st_mode)) {
+    if (!::realpath(path, target))
+      return report.fail(FLK_ERROR_IO, "FILE_NOT_WRITTEN", "%s is a link that leads nowhere: %s; remove it or choose another name", path, Reason(errno).text);
+    path = target;
+  }
   // Renaming onto a device or a pipe would replace it by a file.
   struct stat status {};
   const bool replaces = ::stat(path, &status) == 0;
@@ -148,7 +158,7 @@ FlkResult writeFile(const char* path, std::span<const std::byte> bytes, const Re
   std::pmr::string temporary(memory);
   Descriptor file(createBeside(path, temporary));
   if (!file)
-    return report.fail(FLK_ERROR_IO, "FILE_NOT_WRITTEN", "%s cannot be created: %s", temporary.c_str(), Reason(errno).text);
+    return report.fail(FLK_ERROR_IO, "FILE_NOT_WRITTEN", "%s cannot be written: no file can be created beside it (%s)", path, Reason(errno).text);
   if (replaces) ::fchmod(file.get(), status.st_mode & 0777);
   const bool written = writeAll(file.get(), bytes) && ::fsync(file.get()) == 0;
   int error = written ? 0 : errno;

@@ -113,12 +113,13 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
   // A strand has at least one point, so the proven points bound the strands too.
   arrays.first_vertex.resize(strands + 1);
   Cursor counts(bytes, table[segments].offset);
-  uint32_t vertex = 0;
+  uint64_t vertex = 0;
   for (uint64_t strand = 0; strand < strands; ++strand) {
-    arrays.first_vertex[strand] = vertex;
+    arrays.first_vertex[strand] = static_cast<uint32_t>(vertex);
     vertex += static_cast<uint32_t>(table[segments].present ? counts.u16() : default_segments) + 1;
+    if (vertex > used_points) return fileChanged(report);
   }
-  arrays.first_vertex[strands] = vertex;
+  arrays.first_vertex[strands] = static_cast<uint32_t>(vertex);
   if (vertex != used_points) return fileChanged(report);
 
   arrays.positions.resize(used_points * 3);
@@ -192,10 +193,10 @@ void write(const FlkStrands& strands, const FlkAssetInfo& info, const Report& re
 
   if (strands.root_uvs)
     report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_ROOT_UVS",
-               "its root UVs are not in the .hair file, which has no place for them: write .ply or .tfx to keep them");
+               "its root UVs are not in the .hair file, which has no place for them: write .ply, .tfx or a cache to keep them");
   if (strands.inverse_masses)
     report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_INVERSE_MASSES",
-               "its inverse masses are not in the .hair file, which has no place for them: write .ply or .tfx to keep them");
+               "its inverse masses are not in the .hair file, which has no place for them: write .ply, .tfx or a cache to keep them");
 }
 
 }  // namespace

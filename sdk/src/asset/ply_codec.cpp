@@ -315,9 +315,9 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
       } else {
         const double count = value[segments] + 1;
         if (!(count >= 0 && count <= static_cast<double>(vertices->count - used_vertices)))
-          return report.fail(FLK_ERROR_MALFORMED, "PLY_SEGMENTS_DISAGREE", "strand %" PRIu64 " (before byte %" PRIu64 ") has %g segments, but %" PRIu64
+          return report.fail(FLK_ERROR_MALFORMED, "PLY_SEGMENTS_DISAGREE", "strand %" PRIu64 " (before byte %" PRIu64 ") has %s segments, but %" PRIu64
                              " of %" PRIu64 " vertices (byte %" PRIu64 ") are left: the file is damaged, export it again",
-                             record, values.next_at(), value[segments], vertices->count - used_vertices, vertices->count, vertices->count_at);
+                             record, values.next_at(), Number(value[segments], 6).text, vertices->count - used_vertices, vertices->count, vertices->count_at);
         used_vertices += static_cast<uint64_t>(count);
         arrays.first_vertex[record + 1] = static_cast<uint32_t>(used_vertices);
         if (has_uv) arrays.root_uvs[record * 2] = static_cast<float>(value[u]), arrays.root_uvs[record * 2 + 1] = static_cast<float>(value[v]);

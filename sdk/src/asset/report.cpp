@@ -1,5 +1,6 @@
 #include "asset/report.h"
 
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 
@@ -37,6 +38,19 @@ Quoted::Quoted(std::string_view word) noexcept {
     word.remove_prefix(taken);
   }
   text[used] = '\0';
+}
+
+Number::Number(double value, int digits) noexcept {
+  *std::to_chars(text, text + sizeof text - 1, value, std::chars_format::general, digits).ptr = '\0';
+}
+
+bool isSentence(std::string_view text) noexcept {
+  while (!text.empty()) {
+    const std::size_t size = characterSize(text);
+    if (size == 0) return false;
+    text.remove_prefix(size);
+  }
+  return true;
 }
 
 Report::Report(const Messages& messages, std::string_view name) noexcept : messages_(messages) {

@@ -13,6 +13,15 @@ struct Quoted {
   char text[64];
 };
 
+// A number as "%.4g" would have it in the locale C, whatever the host's locale is: the same asset is told in the same words.
+struct Number {
+  explicit Number(double value, int digits = 4) noexcept;
+  char text[32];
+};
+
+// Whether all of it is characters of UTF-8, none of them a control character: what terminals and logs may be given.
+bool isSentence(std::string_view text) noexcept;
+
 class Report {
 public:
   // `name` may be longer than a message: its end is kept, which holds the file's own name.

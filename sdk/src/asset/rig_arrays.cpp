@@ -109,9 +109,9 @@ void Weights::finish(const char* plural) noexcept {
   const uint64_t count = findings_.count(FindingKind::weights_not_normalised);
   if (count != 0)
     findings_.describe(FindingKind::weights_not_normalised,
-                       "the weights of %" PRIu64 " of %" PRIu32 " %s do not make 1, the worst make %.6g (number %" PRIu32
+                       "the weights of %" PRIu64 " of %" PRIu32 " %s do not make 1, the worst make %s (number %" PRIu32
                        "); they were scaled to 1: export with normalised weights, programs that do not scale them pull towards the origin",
-                       count, arrays_.recordCount(), plural, worst_sum_, worst_record_);
+                       count, arrays_.recordCount(), plural, Number(worst_sum_, 6).text, worst_record_);
 }
 
 }  // namespace forelock

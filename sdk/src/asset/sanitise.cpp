@@ -215,14 +215,14 @@ void guessUnit(const FlkAssetInfo& info, Findings& findings) {
     const bool millimetres = reach > 1000;
     findings.note(FindingKind::unit_suspect, no_strand, no_byte);
     findings.describe(FindingKind::unit_suspect,
-                      "coordinates reach %g, which suggests %s rather than metres; nothing was scaled: if so, scale by %s",
-                      double{reach}, millimetres ? "millimetres" : "centimetres", millimetres ? "0.001" : "0.01");
+                      "coordinates reach %s, which suggests %s rather than metres; nothing was scaled: if so, scale by %s",
+                      Number(double{reach}, 6).text, millimetres ? "millimetres" : "centimetres", millimetres ? "0.001" : "0.01");
   } else if (size < 1e-3f) {
     findings.note(FindingKind::unit_suspect, no_strand, no_byte);
     findings.describe(FindingKind::unit_suspect,
-                      "the whole asset is only %g across, which is less than a millimetre if the unit is the metre; nothing "
+                      "the whole asset is only %s across, which is less than a millimetre if the unit is the metre; nothing "
                       "was scaled: check the scale of the export",
-                      double{size});
+                      Number(double{size}, 6).text);
   }
 }
 
@@ -271,9 +271,9 @@ FlkResult sanitise(StrandArrays& arrays, const Places& places, std::pmr::memory_
     arrays.radii.assign(arrays.vertexCount(), default_radius);
     findings.note(FindingKind::width_defaulted, no_strand, no_byte);
     findings.describe(FindingKind::width_defaulted,
-                      "no widths in the source: a diameter of %.4g (unit of the positions) is used, chosen by the size of the hair, its %" PRIu32
+                      "no widths in the source: a diameter of %s (unit of the positions) is used, chosen by the size of the hair, its %" PRIu32
                       " strands and their median length; give radii or set a width on the hair to change it",
-                      double{default_radius} * 2, kept);
+                      Number(double{default_radius} * 2).text, kept);
   } else if (findings.count(FindingKind::radius_invalid) != 0) {
     std::replace(arrays.radii.begin(), arrays.radii.end(), unset_radius, default_radius);
   }

@@ -153,9 +153,9 @@ FlkResult sniffKnown(std::span<const std::byte> head, const Report& report, uint
     // Where version 4 and version 3 keep the offset of their positions, which start right behind the header.
     if (header.u32() == 160 || Cursor(head, 144).u32() == 296)
       return report.fail(unknown, "TFX_VERSION_UNKNOWN",
-                         "it looks like a .tfx file, but its version (byte 0) is %g where 3 and 4 are read: the file is damaged or "
+                         "it looks like a .tfx file, but its version (byte 0) is %s where 3 and 4 are read: the file is damaged or "
                          "newer, export it again as TressFX 4",
-                         double{version});
+                         Number(double{version}, 6).text);
   }
 
   if (looksLikeTfxbone(head) || fitsTfxbone(head)) return format = format_tfxbone, FLK_SUCCESS;
@@ -211,7 +211,7 @@ FlkResult sniffStrands(std::span<const std::byte> head, const Report& report, ui
   return report.fail(unknown, "FORMAT_UNKNOWN",
                      "the bytes at its start (%sat byte 0) belong to no strand format that is read: give a .tfx "
                      "(TressFX 3 or 4: 00 00 40 40, 00 00 80 40; 1 or 2: text that begins with version), a .hair file (48 41 49 52), a PLY "
-                     "file of strands, a cooked file (8a 46 4c 4b) or the data of USC-HairSalon or CT2Hair",
+                     "file of strands, a cooked file (8a 46 4c 4b), with the tools glTF, or the data of USC-HairSalon or CT2Hair",
                      hex);
 }
 

@@ -192,9 +192,9 @@ void noteWidths(const Subject& s) {
   if (share <= 1.0 / 20 && share >= 1.0 / 200'000) return;
   s.findings.note(FindingKind::width_suspect, no_strand, s.places.radii.offset, s.info.vertex_count);
   s.findings.describe(FindingKind::width_suspect,
-                      "the widths are %.4g on average, %s the median strand of length %.4g: are they in another unit than the positions, "
+                      "the widths are %s on average, %s the median strand of length %s: are they in another unit than the positions, "
                       "or %s? scale them",
-                      width, share > 1 ? "more than the length of" : share > 1.0 / 20 ? "more than a twentieth of" : "less than 1/200,000 of", s.median_length,
+                      Number(width).text, share > 1 ? "more than the length of" : share > 1.0 / 20 ? "more than a twentieth of" : "less than 1/200,000 of", Number(s.median_length).text,
                       share > 1.0 / 20 ? "percentages" : "radii of another scale");
 }
 
@@ -244,9 +244,9 @@ void noteDistance(const Subject& s) {
   s.findings.note(FindingKind::far_from_origin, no_strand, no_byte);
   // Between 2^n and 2^(n + 1) floats are 2^(n - 23) apart.
   s.findings.describe(FindingKind::far_from_origin,
-                      "the hair is %.4g from the origin but only %.4g across: 32-bit floats are %.2g apart there, so that strands look jagged; move it to the "
+                      "the hair is %s from the origin but only %s across: 32-bit floats are %s apart there, so that strands look jagged; move it to the "
                       "origin and place it with a transform",
-                      away, size, std::ldexp(1.0, std::ilogb(away) - 23));
+                      Number(away).text, Number(size).text, Number(std::ldexp(1.0, std::ilogb(away) - 23), 2).text);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <charconv>
+#include <limits>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -57,7 +58,13 @@ public:
     if constexpr (std::is_floating_point_v<T>) {
       if (result.ec == std::errc::result_out_of_range && result.ptr == end) {
         double wide = 0;
-        std::from_chars(text.data(), end, wide);
+        if (std::from_chars(text.data(), end, wide).ec == std::errc::result_out_of_range) {
+          // Beyond a double too: its exponent's sign tells which way, or without one its many digits.
+          const std::size_t e = text.find_first_of("eE");
+          const std::size_t point = text.find('.');
+          const bool small = e != std::string_view::npos ? text.substr(e + 1).starts_with('-') : point != std::string_view::npos && point < 300;
+          wide = small ? 0 : text.starts_with('-') ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+        }
         value = static_cast<T>(wide);
         return true;
       }

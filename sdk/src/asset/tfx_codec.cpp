@@ -212,11 +212,11 @@ void write(const FlkStrands& strands, const FlkAssetInfo& info, const Report& re
 
   if (info.has_radii)
     report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_RADII",
-               "its widths (radius %g to %g) are not in the .tfx file, which has no place for them: write .ply or .hair to keep them",
-               double{info.min_radius}, double{info.max_radius});
+               "its widths (radius %s to %s) are not in the .tfx file, which has no place for them: write .ply, .hair or a cache to keep them",
+               Number(double{info.min_radius}, 6).text, Number(double{info.max_radius}, 6).text);
   if (strands.colors)
     report.say(FLK_SEVERITY_WARNING, "WRITE_DROPS_COLORS",
-               "its colours are not in the .tfx file, whose block for them TressFX does not read: write .ply or .hair to keep them");
+               "its colours are not in the .tfx file, whose block for them TressFX does not read: write .ply, .hair or a cache to keep them");
   if (!strands.inverse_masses)
     report.say(FLK_SEVERITY_INFO, "WRITE_FILLS_INVERSE_MASSES",
                "it has no inverse masses: the first two vertices of each strand are written as pinned, the rest as free");

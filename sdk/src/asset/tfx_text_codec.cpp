@@ -87,9 +87,9 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
     return report.fail(FLK_ERROR_FORMAT_UNKNOWN, "TFX_PROJECT", "it is a text of TressFX 3 (byte %" PRIu64 "), a project or settings and no strands: "
                        "give the .tfx files that the project names", text.word_at());
   if (!(version >= 1 && version < 3))
-    return report.fail(FLK_ERROR_FORMAT_UNKNOWN, "TFX_TEXT_VERSION", "it is a text file of TressFX %g (byte %" PRIu64
+    return report.fail(FLK_ERROR_FORMAT_UNKNOWN, "TFX_TEXT_VERSION", "it is a text file of TressFX %s (byte %" PRIu64
                        "), but only 1 and 2 have been text: the file is damaged or newer, export it again as TressFX 4",
-                       double{version}, text.word_at());
+                       Number(double{version}, 6).text, text.word_at());
   Header header;
   FlkResult result = readHeader(text, report, header, findings);
   if (result != FLK_SUCCESS) return result;
@@ -154,10 +154,10 @@ FlkResult read(std::span<const std::byte> bytes, const Limits& limits, const Rep
   if (header.scale != 1 || !isZero(header.rotation) || !isZero(header.translation)) {
     findings.note(FindingKind::tfx_text_transform_ignored, no_strand, 0);
     findings.describe(FindingKind::tfx_text_transform_ignored,
-                      "its header asks for a scale of %g, a rotation of %g %g %g and a shift of %g %g %g, which are not applied: transform the hair "
+                      "its header asks for a scale of %s, a rotation of %s %s %s and a shift of %s %s %s, which are not applied: transform the hair "
                       "where it is placed, or convert with a scale",
-                      double{header.scale}, double{header.rotation[0]}, double{header.rotation[1]}, double{header.rotation[2]},
-                      double{header.translation[0]}, double{header.translation[1]}, double{header.translation[2]});
+                      Number(double{header.scale}, 6).text, Number(double{header.rotation[0]}, 6).text, Number(double{header.rotation[1]}, 6).text, Number(double{header.rotation[2]}, 6).text,
+                      Number(double{header.translation[0]}, 6).text, Number(double{header.translation[1]}, 6).text, Number(double{header.translation[2]}, 6).text);
   }
   findings.note(FindingKind::inverse_mass_implied, no_strand, no_byte, arrays.strandCount());
   if (header.both_ends != 0) findings.note(FindingKind::both_ends_fixed, no_strand, 0, arrays.strandCount());

@@ -144,6 +144,9 @@ TEST(GltfModes, MeshesBesideLinesArePassedOverAndAloneRefused) {
   GltfMaker nothing;
   nothing.positionsAlongX(2);
   EXPECT_EQ(refusalOf(nothing.glb()).rfind("GLTF_NO_LINES: ", 0), 0u);
+  GltfMaker point;
+  point.primitive(kLineStrip, point.positionsAlongX(3), point.indices({1}));
+  EXPECT_EQ(refusalOf(point.glb()).rfind("GLTF_NO_LINES: ", 0), 0u) << "a strip of one vertex";
 }
 
 TEST(GltfModes, AStripOfOneVertexIsLeftToTheLibraryToDrop) {

@@ -119,7 +119,7 @@ std::vector<float> valuesOf(const StagedAsset& asset, StrandColoring coloring) {
     default: {
       std::vector<float> diameters = strandDiameters(strands);
       for (float& diameter : diameters) {
-        diameter *= 1e3f * asset.material.width_scale;
+        diameter *= asset.material.width_scale;
       }
       return diameters;
     }
@@ -140,7 +140,7 @@ void showScale(const Stage& plain, StrandColoring coloring, Colorer& colorer, Le
     case StrandColoring::curvature: legend = scaleLegend("curvature (rad per unit)", scale); break;
     case StrandColoring::length: legend = scaleLegend("length (unit of the asset)", scale); break;
     case StrandColoring::segments: legend = scaleLegend("segment by its strand's mean", scale); break;
-    default: legend = scaleLegend("thickness (mm, a unit being 1 m)", scale); break;
+    default: legend = scaleLegend("thickness (unit of the asset)", scale); break;
   }
   if (coloring == StrandColoring::curvature) {
     legend.notes.push_back("red: turns as on a circle of radius " + shortNumber(1.0 / scale.red) + " and less");

@@ -173,6 +173,23 @@ TEST(AssetSave, FailuresLeaveTheFileWhole) {
   EXPECT_EQ(folder.entries().size(), 1u);
 }
 
+TEST(AssetSave, LinksKeepLeadingToTheFile) {
+  const Folder folder;
+  const std::string file = folder.path + "/file.tfx", link = folder.path + "/link.tfx", lost = folder.path + "/lost.tfx";
+  writeRaw(file, {1, 2, 3});
+  ASSERT_EQ(symlink(file.c_str(), link.c_str()), 0);
+  ASSERT_EQ(symlink((folder.path + "/absent.tfx").c_str(), lost.c_str()), 0);
+  const auto loaded = load(smallTfx());
+  EXPECT_EQ(flkAssetSaveFile(loaded->asset.get(), FLK_FORMAT_TFX, link.c_str()), FLK_SUCCESS);
+  struct stat status {};
+  ASSERT_EQ(lstat(link.c_str(), &status), 0);
+  EXPECT_TRUE(S_ISLNK(status.st_mode));
+  EXPECT_GT(contents(file).size(), 3u);
+  EXPECT_EQ(flkAssetSaveFile(loaded->asset.get(), FLK_FORMAT_TFX, lost.c_str()), FLK_ERROR_IO);
+  EXPECT_NE(loaded->caught.all.back().text.find("leads nowhere"), std::string::npos);
+  EXPECT_EQ(folder.entries().size(), 3u);
+}
+
 TEST(AssetSave, EveryAllocationRefused) {
   const Folder folder;
   const std::string source = folder.path + "/a source file with a name of some length.hair", target = folder.path + "/out.hair";

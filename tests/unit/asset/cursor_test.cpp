@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <clocale>
 #include <limits>
+#include <string>
 
 using forelock::ByteSink;
 using forelock::Cursor;
@@ -97,4 +99,16 @@ TEST(Quoted, ShowsWholeCharactersOnly) {
   EXPECT_EQ(shown("\xc2\x85"), "??") << "a control character";
   EXPECT_EQ(shown(std::string(100, 'x')), std::string(60, 'x'));
   EXPECT_EQ(shown(std::string(59, 'x') + "\xc3\xbc"), std::string(59, 'x')) << "a character that does not fit is left out whole";
+}
+
+// Sentences go into caches, whose bytes must not follow the host's locale.
+TEST(Number, AsTheLocaleCHasIt) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* name : {"C", "de_DE.UTF-8"}) {
+    if (!std::setlocale(LC_ALL, name)) continue;
+    EXPECT_STREQ(forelock::Number(0.25).text, "0.25");
+    EXPECT_STREQ(forelock::Number(1234567, 6).text, "1.23457e+06");
+    EXPECT_STREQ(forelock::Number(-3e-7).text, "-3e-07");
+  }
+  std::setlocale(LC_ALL, before.c_str());
 }

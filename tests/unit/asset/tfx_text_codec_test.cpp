@@ -63,6 +63,17 @@ TEST(TfxText, NumbersDoNotDependOnTheLocale) {
   std::setlocale(LC_ALL, before.c_str());
 }
 
+// No double is as large or as small: the first is beyond all bounds, the second 0.
+TEST(TfxText, NumbersBeyondADouble) {
+  for (const char* large : {"1e400", "-1e400", "1E+999"}) EXPECT_EQ(loadText(replaced(smallTfxText(), "0.0 0.125 0.25", std::string(large) + " 0.125 0.25"))->finding("POSITION_NOT_FINITE").count, 1u) << large;
+  EXPECT_EQ(loadText(replaced(smallTfxText(), "0.0 0.125 0.25", std::string(400, '9') + " 0.125 0.25"))->finding("POSITION_NOT_FINITE").count, 1u);
+  for (const std::string& small : {std::string("1e-400"), "0." + std::string(400, '0') + "1"}) {
+    const auto loaded = loadText(replaced(smallTfxText(), "0.0 0.125 0.25", small + " 0.125 0.25"));
+    ASSERT_EQ(loaded->result, FLK_SUCCESS) << small;
+    EXPECT_EQ(loaded->strands().positions[0], 0.0f) << small;
+  }
+}
+
 TEST(TfxText, ProjectsOfTressFx3AreNoStrands) {
   const auto project = loadText("version 3.0\n\nproject_name Pony\nside.tfx 4 0.4 5.0 side.tfxsim side\n");
   EXPECT_EQ(project->result, FLK_ERROR_FORMAT_UNKNOWN);

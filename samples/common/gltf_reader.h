@@ -16,7 +16,7 @@ struct GltfError : AssetError {
 };
 
 struct GltfLimits {
-  uint32_t strands = 4'194'304, vertices = 268'435'456;  // those of FlkStrands
+  uint32_t strands = kMostStrands, vertices = kMostVertices;
 };
 
 struct GltfStrands {

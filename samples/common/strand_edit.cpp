@@ -13,13 +13,6 @@ double distance(const float* a, const float* b) {
   return std::hypot(double(a[0]) - double(b[0]), double(a[1]) - double(b[1]), double(a[2]) - double(b[2]));
 }
 
-double lengthOf(const EditableStrands& strands, uint32_t strand) {
-  double length = 0;
-  for (uint32_t v = strands.first_vertex[strand]; v + 1 < strands.first_vertex[strand + 1]; ++v)
-    length += distance(&strands.positions[3 * size_t(v)], &strands.positions[3 * size_t(v) + 3]);
-  return length;
-}
-
 template <class T> void reverseRecords(std::vector<T>& values, size_t begin, size_t end, size_t size) {
   if (values.empty()) return;
   for (size_t a = begin, b = end; a + 1 < b; ++a) {
@@ -33,6 +26,23 @@ template <class T> void append(std::vector<T>& to, const std::vector<T>& from, s
 }
 
 }  // namespace
+
+std::vector<double> lengthsAlong(const EditableStrands& strands, uint32_t strand) {
+  std::vector<double> along{0};
+  for (size_t v = strands.first_vertex[strand] + size_t{1}; v < strands.first_vertex[strand + 1]; ++v)
+    along.push_back(along.back() + distance(&strands.positions[3 * v], &strands.positions[3 * v - 3]));
+  return along;
+}
+
+void appendStrand(EditableStrands& to, const EditableStrands& from, uint32_t strand) {
+  const size_t begin = from.first_vertex[strand], end = from.first_vertex[strand + 1];
+  append(to.positions, from.positions, 3 * begin, 3 * end);
+  append(to.radii, from.radii, begin, end);
+  append(to.inverse_masses, from.inverse_masses, begin, end);
+  append(to.colors, from.colors, 3 * begin, 3 * end);
+  append(to.root_uvs, from.root_uvs, 2 * size_t{strand}, 2 * size_t{strand} + 2);
+  to.first_vertex.push_back(to.first_vertex.back() + uint32_t(end - begin));
+}
 
 FlkStrands EditableStrands::view() const {
   const auto orNone = [](const std::vector<float>& values) { return values.empty() ? nullptr : values.data(); };
@@ -113,16 +123,8 @@ std::array<double, 3> recentreStrands(EditableStrands& strands) {
 uint32_t removeShortStrands(EditableStrands& strands, double length) {
   EditableStrands kept;
   kept.first_vertex.push_back(0);
-  for (uint32_t strand = 0; strand < strands.strands(); ++strand) {
-    if (lengthOf(strands, strand) < length) continue;
-    const size_t begin = strands.first_vertex[strand], end = strands.first_vertex[strand + 1];
-    append(kept.positions, strands.positions, 3 * begin, 3 * end);
-    append(kept.radii, strands.radii, begin, end);
-    append(kept.inverse_masses, strands.inverse_masses, begin, end);
-    append(kept.colors, strands.colors, 3 * begin, 3 * end);
-    append(kept.root_uvs, strands.root_uvs, 2 * size_t(strand), 2 * size_t(strand) + 2);
-    kept.first_vertex.push_back(kept.first_vertex.back() + uint32_t(end - begin));
-  }
+  for (uint32_t strand = 0; strand < strands.strands(); ++strand)
+    if (lengthsAlong(strands, strand).back() >= length) appendStrand(kept, strands, strand);
   const uint32_t removed = strands.strands() - kept.strands();
   strands = std::move(kept);
   return removed;
@@ -133,13 +135,10 @@ ResampleReport resampleStrands(EditableStrands& strands, uint32_t vertices) {
   EditableStrands even;
   even.root_uvs = strands.root_uvs;
   even.first_vertex.push_back(0);
-  std::vector<double> along;  // length from the root, of the old vertices
   double errors = 0;
   for (uint32_t strand = 0; strand < strands.strands(); ++strand) {
     const uint32_t begin = strands.first_vertex[strand], count = strands.first_vertex[strand + 1] - begin;
-    along.assign(1, 0);
-    for (uint32_t i = 1; i < count; ++i)
-      along.push_back(along.back() + distance(&strands.positions[3 * size_t(begin + i)], &strands.positions[3 * size_t(begin + i - 1)]));
+    const std::vector<double> along = lengthsAlong(strands, strand);
     const double length = along.back();
     uint32_t segment = 0;
     for (uint32_t i = 0; i < vertices; ++i) {
@@ -166,7 +165,7 @@ ResampleReport resampleStrands(EditableStrands& strands, uint32_t vertices) {
       }
     }
     even.first_vertex.push_back(even.first_vertex.back() + vertices);
-    const double error = length > 0 ? std::abs(lengthOf(even, strand) / length - 1) : 0;
+    const double error = length > 0 ? std::abs(lengthsAlong(even, strand).back() / length - 1) : 0;
     errors += error;
     if (error > report.worst_error) report.worst_error = error, report.worst_strand = strand;
   }

@@ -21,6 +21,15 @@ struct EditableStrands {
   FlkStrands view() const;
 };
 
+// What FlkStrands may hold.
+inline constexpr uint32_t kMostStrands = 4'194'304, kMostVertices = 268'435'456;
+
+// Way along a strand from its root to each of its vertices; the last is its length.
+std::vector<double> lengthsAlong(const EditableStrands& strands, uint32_t strand);
+
+// A copy of a strand of `from`, which has the same arrays, behind those of `to`.
+void appendStrand(EditableStrands& to, const EditableStrands& from, uint32_t strand);
+
 // with_radii: false where the widths are a default, which are none of the asset's own.
 EditableStrands editableStrands(const FlkStrands& held, bool with_radii);
 

@@ -52,18 +52,7 @@ std::vector<uint32_t> evenOrder(const EditableStrands& strands) {
 void orderStrands(EditableStrands& strands, const std::vector<uint32_t>& order) {
   EditableStrands ordered;
   ordered.first_vertex.push_back(0);
-  const auto take = [](const std::vector<float>& from, std::vector<float>& to, size_t begin, size_t end) {
-    if (!from.empty()) to.insert(to.end(), from.begin() + std::ptrdiff_t(begin), from.begin() + std::ptrdiff_t(end));
-  };
-  for (const uint32_t strand : order) {
-    const size_t begin = strands.first_vertex[strand], end = strands.first_vertex[strand + 1];
-    take(strands.positions, ordered.positions, 3 * begin, 3 * end);
-    take(strands.radii, ordered.radii, begin, end);
-    take(strands.inverse_masses, ordered.inverse_masses, begin, end);
-    take(strands.colors, ordered.colors, 3 * begin, 3 * end);
-    take(strands.root_uvs, ordered.root_uvs, 2 * size_t{strand}, 2 * size_t{strand} + 2);
-    ordered.first_vertex.push_back(ordered.first_vertex.back() + uint32_t(end - begin));
-  }
+  for (const uint32_t strand : order) appendStrand(ordered, strands, strand);
   strands = std::move(ordered);
 }
 

@@ -43,14 +43,9 @@ WidthProfile parseWidthProfile(const std::string& text) {
 void applyWidthProfile(EditableStrands& strands, const WidthProfile& profile, double diameter) {
   if (strands.radii.empty() && diameter <= 0) throw std::invalid_argument("strands without widths need a diameter");
   if (diameter > 0) strands.radii.assign(strands.vertices(), float(0.5 * diameter));
-  std::vector<double> along;
   for (uint32_t strand = 0; strand < strands.strands(); ++strand) {
     const size_t begin = strands.first_vertex[strand], end = strands.first_vertex[strand + 1];
-    along.assign(1, 0);
-    for (size_t v = begin + 1; v < end; ++v) {
-      const float *a = &strands.positions[3 * v], *b = a - 3;
-      along.push_back(along.back() + std::hypot(double(a[0]) - double(b[0]), double(a[1]) - double(b[1]), double(a[2]) - double(b[2])));
-    }
+    const std::vector<double> along = lengthsAlong(strands, strand);
     for (size_t v = begin; v < end; ++v) strands.radii[v] = float(double(strands.radii[v]) * profile.at(along.back() > 0 ? along[v - begin] / along.back() : 0));
   }
 }

@@ -13,7 +13,6 @@
 namespace forelock::samples {
 namespace {
 
-constexpr uint64_t kMostVertices = 268'435'456, kMostStrands = 4'194'304;  // FlkStrands
 constexpr double kWidestGap = 4;
 constexpr double kPartingCosine = 0.5;  // 60 degrees
 
@@ -29,19 +28,10 @@ glm::dvec3 normalizeOrZero(const glm::dvec3& v) {
 
 // Share of the strand's length before each of its vertices.
 std::vector<double> fractionsOf(const EditableStrands& strands, uint32_t strand) {
-  const size_t begin = strands.first_vertex[strand], end = strands.first_vertex[strand + 1];
-  std::vector<double> along{0};
-  for (size_t v = begin + 1; v < end; ++v) along.push_back(along.back() + glm::distance(vertexOf(strands, v), vertexOf(strands, v - 1)));
+  std::vector<double> along = lengthsAlong(strands, strand);
   const double length = along.back();
-  for (size_t i = 0; i < along.size(); ++i) along[i] = length > 0 ? along[i] / length : 0;
+  for (double& way : along) way = length > 0 ? way / length : 0;
   return along;
-}
-
-double lengthOf(const EditableStrands& strands, uint32_t strand) {
-  double length = 0;
-  for (size_t v = strands.first_vertex[strand] + 1; v < strands.first_vertex[strand + 1]; ++v)
-    length += glm::distance(vertexOf(strands, v), vertexOf(strands, v - 1));
-  return length;
 }
 
 // Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators (2014).
@@ -115,18 +105,11 @@ void addFollowStrands(EditableStrands& strands, uint32_t count, double radius, d
         const double u1 = nextOf(state), angle = 2 * std::numbers::pi * nextOf(state);
         offset = radius * std::sqrt(u1) * (std::cos(angle) * x + std::sin(angle) * y);
       }
-      for (size_t v = begin; v < end; ++v) {
+      appendStrand(all, strands, guide);
+      for (size_t v = begin, to = all.positions.size() - 3 * (end - begin); v < end; ++v, to += 3) {
         const glm::dvec3 p = vertexOf(strands, v) + (1 + (spread_tip - 1) * fractions[v - begin]) * offset;
-        for (int axis = 0; axis < 3; ++axis) all.positions.push_back(float(p[axis]));
+        for (int axis = 0; axis < 3; ++axis) all.positions[to + size_t(axis)] = float(p[axis]);
       }
-      const auto repeat = [](const std::vector<float>& from, std::vector<float>& to, size_t first, size_t last) {
-        if (!from.empty()) to.insert(to.end(), from.begin() + std::ptrdiff_t(first), from.begin() + std::ptrdiff_t(last));
-      };
-      repeat(strands.radii, all.radii, begin, end);
-      repeat(strands.inverse_masses, all.inverse_masses, begin, end);
-      repeat(strands.colors, all.colors, 3 * begin, 3 * end);
-      repeat(strands.root_uvs, all.root_uvs, 2 * size_t{guide}, 2 * size_t{guide} + 2);
-      all.first_vertex.push_back(all.first_vertex.back() + uint32_t(end - begin));
     }
   }
   strands = std::move(all);
@@ -141,7 +124,7 @@ InterpolationReport interpolateGuides(EditableStrands& strands, uint32_t total) 
   for (uint32_t i = 0; i < guides; ++i) {
     const glm::dvec3 root = vertexOf(strands, strands.first_vertex[i]);
     roots.insert(roots.end(), {float(root.x), float(root.y), float(root.z)});
-    lengths[i] = lengthOf(strands, i);
+    lengths[i] = lengthsAlong(strands, i).back();
     report.mean_guide_length += lengths[i] / guides;
     directions[i] = normalizeOrZero(vertexOf(strands, strands.first_vertex[i + 1] - 1) - root);
   }

@@ -27,7 +27,7 @@ std::string readKeep(const std::string& text, ConvertEdits& edits) {
   const char* end = text.data() + text.size();
   const std::from_chars_result read = std::from_chars(text.data(), end, value);
   if (read.ec != std::errc() || !(value > 0)) return wrong;
-  if (read.ptr == end && value == std::floor(value) && value <= 4194304) return edits.keep = uint32_t(value), "";
+  if (read.ptr == end && value == std::floor(value) && value <= kMostStrands) return edits.keep = uint32_t(value), "";
   if (read.ptr + 1 == end && *read.ptr == '%' && value <= 100) return edits.keep_share = value / 100, "";
   return wrong;
 }
@@ -140,7 +140,7 @@ void addConvertEdits(CLI::App& command, ConvertEdits& edits) {
   command.add_flag("--recentre", edits.recentre, "Move the middle of the hair to the origin")->group(group);
   command.add_option("--min-length", edits.min_length, "Remove strands that are shorter (unit of the written file)")->check(between)->group(group);
   command.add_option("--interpolate", edits.interpolate, "Grow strands between guides until there are N, each from its three guides")
-      ->check(CLI::Range(2u, 4194304u))->group(group)->type_name("N");
+      ->check(CLI::Range(2u, kMostStrands))->group(group)->type_name("N");
   CLI::Option* follow = command.add_option("--follow", edits.follow, "N follow strands beside each, as strands of their own")->check(CLI::Range(1u, 1023u))->group(group)->type_name("N");
   command.add_option("--follow-radius", edits.follow_radius_mm, "How far from their guide at most, if the unit is the metre [1]")
       ->check(between)->needs(follow)->group(group)->type_name("MM");

@@ -2,7 +2,9 @@
 #include "scene.h"
 
 #include "asset_source.h"
+#include "reference_follow.h"
 #include "strand_lod.h"
+#include "strand_multiply.h"
 
 #include <gtest/gtest.h>
 
@@ -37,6 +39,33 @@ StrandArrays arraysOf(const samples::EditableStrands& strands) {
   StrandArrays arrays;
   arrays.first_vertex = strands.first_vertex, arrays.positions = strands.positions, arrays.radii = strands.radii;
   return arrays;
+}
+
+// As strands of their own they are those that the renderer draws without storing them.
+TEST(FollowStrands, AreThoseOfTheReference) {
+  samples::EditableStrands strands = groomStrands("paper-load");
+  reference::Strands guides;
+  guides.first_vertex.clear();
+  for (const uint32_t first : strands.first_vertex) guides.first_vertex.push_back(first);
+  for (uint32_t strand = 0; strand < strands.strands(); ++strand) {
+    const std::vector<double> along = samples::lengthsAlong(strands, strand);
+    for (const double way : along) guides.fraction.push_back(way / along.back());
+  }
+  for (std::size_t v = 0; v < strands.vertices(); ++v) {
+    guides.positions.push_back({double(strands.positions[3 * v]), double(strands.positions[3 * v + 1]), double(strands.positions[3 * v + 2])});
+    guides.radii.push_back(double(strands.radii[v]));
+  }
+  const reference::Strands expected = reference::followStrands(guides, 3, 0.004, 1.5, 11);
+  samples::addFollowStrands(strands, 3, 0.004, 1.5, 11);
+  ASSERT_EQ(strands.vertices(), expected.positions.size());
+  double worst = 0;
+  for (std::size_t v = 0; v < strands.vertices(); ++v)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const reference::Vec3& p = expected.positions[v];
+      worst = std::max(worst, std::fabs(double(strands.positions[3 * v + axis]) - (axis == 0 ? p.x : axis == 1 ? p.y : p.z)));
+    }
+  // Half a step of a 32-bit float below 1 m, the rest of both in doubles.
+  EXPECT_LT(worst, 6e-8);
 }
 
 // What an engine does far away. A shadow map whose texels are wider than a strand widens the thin ones, and so has more of the full hair than of

@@ -1,5 +1,7 @@
 #include "headless_host.h"
 
+#include "gpu_resources.h"
+
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -14,36 +16,20 @@ namespace {
   X(vkDestroyInstance)                                                                                          \
   X(vkEnumeratePhysicalDevices)                                                                                 \
   X(vkGetPhysicalDeviceProperties2) X(vkGetPhysicalDeviceFeatures2) X(vkGetPhysicalDeviceQueueFamilyProperties) \
-      X(vkGetPhysicalDeviceMemoryProperties) X(vkCreateDevice) X(vkGetDeviceProcAddr)
+      X(vkEnumerateDeviceExtensionProperties) X(vkCreateDevice) X(vkGetDeviceProcAddr)
 #define HOST_DEVICE_FUNCTIONS(X)                                                                              \
   X(vkDestroyDevice)                                                                                          \
   X(vkGetDeviceQueue)                                                                                         \
   X(vkCreateCommandPool) X(vkDestroyCommandPool) X(vkAllocateCommandBuffers) X(vkBeginCommandBuffer)          \
       X(vkEndCommandBuffer) X(vkResetCommandPool) X(vkQueueSubmit2) X(vkCreateFence) X(vkDestroyFence)        \
-          X(vkWaitForFences) X(vkResetFences) X(vkDeviceWaitIdle) X(vkCreateImage) X(vkDestroyImage)          \
-              X(vkCreateImageView) X(vkDestroyImageView) X(vkGetImageMemoryRequirements) X(vkBindImageMemory) \
-                  X(vkCreateBuffer) X(vkDestroyBuffer) X(vkGetBufferMemoryRequirements) X(vkBindBufferMemory) \
-                      X(vkAllocateMemory) X(vkFreeMemory) X(vkMapMemory) X(vkCmdPipelineBarrier2)             \
-                          X(vkCmdCopyBufferToImage) X(vkCmdCopyImageToBuffer) X(vkCmdClearColorImage) X(vkGetBufferDeviceAddress)
+          X(vkWaitForFences) X(vkResetFences) X(vkDeviceWaitIdle) X(vkCmdCopyBufferToImage)                   \
+              X(vkCmdCopyImageToBuffer) X(vkCmdClearColorImage)
 
 struct Functions {
 #define HOST_DECLARE(name) PFN_##name name = nullptr;
   HOST_INSTANCE_FUNCTIONS(HOST_DECLARE)
     HOST_DEVICE_FUNCTIONS(HOST_DECLARE)
 #undef HOST_DECLARE
-};
-
-struct HostImage {
-  VkImage image = VK_NULL_HANDLE;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
-  VkImageView view = VK_NULL_HANDLE;
-};
-
-struct HostBuffer {
-  VkBuffer buffer = VK_NULL_HANDLE;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
-  void* mapped = nullptr;
-  VkDeviceSize size = 0;
 };
 
 float halfToFloat(uint16_t half) {
@@ -89,7 +75,7 @@ struct HeadlessHost::Impl {
   VkInstance instance = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
-  VkPhysicalDeviceMemoryProperties memory{};
+  GpuResources resources;
   VkPhysicalDeviceType type{};
   VkDevice device = VK_NULL_HANDLE;
   uint32_t family = 0;
@@ -102,31 +88,25 @@ struct HeadlessHost::Impl {
   std::vector<std::string> validation, messages;
 
   uint32_t width = 0, height = 0;
-  HostImage color, depth, outputs[FLK_OUTPUT_COUNT];
+  GpuImage color, depth, outputs[FLK_OUTPUT_COUNT];
   uint32_t output_mask = 0;
   bool graphics = true;
-  std::vector<HostImage> uploaded_images;
-  std::vector<HostBuffer> uploaded_buffers;
-  HostBuffer transfer;
+  std::vector<GpuImage> uploaded_images;
+  std::vector<GpuBuffer> uploaded_buffers;
+  GpuBuffer transfer;
   std::vector<float> background, depth_values;
   bool depth_changed = false;
   uint64_t frame = 0;
 
   ~Impl() { destroy(); }
   void destroy();
-  bool createInstance(bool with_validation, std::string& error);
+  bool createInstance(const HeadlessOptions& options, std::string& error);
+  bool hasExtensions(VkPhysicalDevice candidate, const HeadlessOptions& options) const;
   bool createDevice(const HeadlessOptions& options, std::string& error);
-  uint32_t memoryType(uint32_t bits, VkMemoryPropertyFlags flags) const;
-  bool createImage(VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect, HostImage& image);
-  bool createImage(VkExtent3D extent, uint32_t layers, VkImageViewType view_type, VkFormat format, VkImageUsageFlags usage,
-                   VkImageAspectFlags aspect, HostImage& image);
-  bool createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, HostBuffer& buffer);
-  void destroyBuffer(HostBuffer& buffer);
+  bool createImage(VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect, GpuImage& image);
   bool ensureOutputs();
-  void destroyImage(HostImage& image);
   bool ensureTransfer(VkDeviceSize size);
-  void transition(VkImage image, const VkImageSubresourceRange& range, VkImageLayout from, VkImageLayout to) const;
-  void uploadImage(const HostImage& image, const VkImageSubresourceRange& range, VkImageLayout to) const;
+  void uploadImage(const GpuImage& image, const VkImageSubresourceRange& range, VkImageLayout to) const;
 };
 
 namespace {
@@ -143,7 +123,8 @@ void onMessage(void* user, const FlkMessage* message) {
 
 }  // namespace
 
-bool HeadlessHost::Impl::createInstance(bool with_validation, std::string& error) {
+bool HeadlessHost::Impl::createInstance(const HeadlessOptions& options, std::string& error) {
+  const bool with_validation = options.validation;
   loader = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
   if (!loader) return error = "there is no Vulkan loader (libvulkan.so.1): install libvulkan1 and a driver", false;
   get_instance_proc_addr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(loader, "vkGetInstanceProcAddr"));
@@ -155,7 +136,7 @@ bool HeadlessHost::Impl::createInstance(bool with_validation, std::string& error
   application.pApplicationName = "forelock";
   application.apiVersion = VK_API_VERSION_1_3;
   const char* layer = "VK_LAYER_KHRONOS_validation";
-  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  std::vector<const char*> extensions = options.instance_extensions;
   const VkValidationFeatureEnableEXT enabled = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
   VkValidationFeaturesEXT features{};
   features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
@@ -174,10 +155,12 @@ bool HeadlessHost::Impl::createInstance(bool with_validation, std::string& error
   info.pApplicationInfo = &application;
   if (with_validation) {
     info.pNext = &debug;
-    info.enabledLayerCount = info.enabledExtensionCount = 1;
+    info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &layer;
-    info.ppEnabledExtensionNames = &extension;
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   }
+  info.enabledExtensionCount = uint32_t(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   if (create(&info, nullptr, &instance) != VK_SUCCESS)
     return error = with_validation ? "no Vulkan instance with validation layers: install vulkan-validationlayers"
                                    : "no Vulkan instance: is a driver installed?",
@@ -195,6 +178,16 @@ bool HeadlessHost::Impl::createInstance(bool with_validation, std::string& error
         return error = "no debug messenger", false;
     }
     return true;
+}
+
+bool HeadlessHost::Impl::hasExtensions(VkPhysicalDevice candidate, const HeadlessOptions& options) const {
+  uint32_t count = 0;
+  fn.vkEnumerateDeviceExtensionProperties(candidate, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> there(count);
+  fn.vkEnumerateDeviceExtensionProperties(candidate, nullptr, &count, there.data());
+  return std::all_of(options.device_extensions.begin(), options.device_extensions.end(), [&](const char* name) {
+    return std::any_of(there.begin(), there.end(), [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+  });
 }
 
 bool HeadlessHost::Impl::createDevice(const HeadlessOptions& options, std::string& error) {
@@ -224,6 +217,7 @@ bool HeadlessHost::Impl::createDevice(const HeadlessOptions& options, std::strin
     fn.vkGetPhysicalDeviceQueueFamilyProperties(candidate, &families, family_properties.data());
     for (uint32_t i = 0; i < families; ++i) {
       if ((family_properties[i].queueFlags & need.queue_flags) != need.queue_flags) continue;
+      if (options.can_present && !(hasExtensions(candidate, options) && options.can_present(instance, candidate, i))) continue;
       const bool rasterises = family_properties[i].queueFlags & VK_QUEUE_GRAPHICS_BIT;
       // A family of the kind wanted if there is one, else any.
       const int rank = 2 * preference(properties.properties.deviceType) + (rasterises == options.compute_queue);
@@ -238,8 +232,8 @@ bool HeadlessHost::Impl::createDevice(const HeadlessOptions& options, std::strin
     }
   }
   if (!physical_device)
-    return error = "no Vulkan 1.3 device" + (wanted.empty() ? std::string() : " named " + wanted) +
-                   "; found: " + (found.empty() ? "none" : found),
+    return error = std::string("no Vulkan 1.3 device") + (options.can_present ? " that can draw to this screen" : "") +
+                   (wanted.empty() ? std::string() : " named " + wanted) + "; found: " + (found.empty() ? "none" : found),
            false;
 
   const float priority = 1;
@@ -256,12 +250,14 @@ bool HeadlessHost::Impl::createDevice(const HeadlessOptions& options, std::strin
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue_info;
   info.pEnabledFeatures = &need.features;
+  info.enabledExtensionCount = uint32_t(options.device_extensions.size());
+  info.ppEnabledExtensionNames = options.device_extensions.data();
   if (fn.vkCreateDevice(physical_device, &info, nullptr, &device) != VK_SUCCESS)
     return error = device_name + " lacks a feature that Forelock needs", false;
 #define HOST_LOAD(name) fn.name = reinterpret_cast<PFN_##name>(fn.vkGetDeviceProcAddr(device, #name));
   HOST_DEVICE_FUNCTIONS(HOST_LOAD)
 #undef HOST_LOAD
-    fn.vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
+    resources.load(get_instance_proc_addr, instance, physical_device, device);
     fn.vkGetDeviceQueue(device, family, 0, &queue);
     VkCommandPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -296,12 +292,12 @@ void HeadlessHost::Impl::destroy() {
   if (device) {
     fn.vkDeviceWaitIdle(device);
     flkContextDestroy(context);
-    destroyImage(color);
-    destroyImage(depth);
-    for (HostImage& image : outputs) destroyImage(image);
-    for (HostImage& image : uploaded_images) destroyImage(image);
-    for (HostBuffer& buffer : uploaded_buffers) destroyBuffer(buffer);
-    destroyBuffer(transfer);
+    resources.destroy(color);
+    resources.destroy(depth);
+    for (GpuImage& image : outputs) resources.destroy(image);
+    for (GpuImage& image : uploaded_images) resources.destroy(image);
+    for (GpuBuffer& buffer : uploaded_buffers) resources.destroy(buffer);
+    resources.destroy(transfer);
     if (fence) fn.vkDestroyFence(device, fence, nullptr);
     if (pool) fn.vkDestroyCommandPool(device, pool, nullptr);
     fn.vkDestroyDevice(device, nullptr);
@@ -311,86 +307,14 @@ void HeadlessHost::Impl::destroy() {
   if (loader) dlclose(loader);
 }
 
-uint32_t HeadlessHost::Impl::memoryType(uint32_t bits, VkMemoryPropertyFlags flags) const {
-  for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-    if ((bits >> i & 1) && (memory.memoryTypes[i].propertyFlags & flags) == flags) return i;
-  return 0;
-}
-
-bool HeadlessHost::Impl::createImage(VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect,
-                                     HostImage& image) {
-  return createImage({width, height, 1}, 1, VK_IMAGE_VIEW_TYPE_2D, format, usage, aspect, image);
-}
-
-bool HeadlessHost::Impl::createImage(VkExtent3D extent, uint32_t layers, VkImageViewType view_type, VkFormat format,
-                                     VkImageUsageFlags usage, VkImageAspectFlags aspect, HostImage& image) {
-  VkImageCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
-  info.imageType = VK_IMAGE_TYPE_2D;
-  info.format = format;
-  info.extent = extent;
-  info.mipLevels = 1;
-  info.arrayLayers = layers;
-  info.samples = VK_SAMPLE_COUNT_1_BIT;
-  info.usage = usage;
-  if (fn.vkCreateImage(device, &info, nullptr, &image.image) != VK_SUCCESS) return false;
-  VkMemoryRequirements requirements{};
-  fn.vkGetImageMemoryRequirements(device, image.image, &requirements);
-  VkMemoryAllocateInfo allocate{};
-  allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-  allocate.allocationSize = requirements.size;
-  allocate.memoryTypeIndex = memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-  if (fn.vkAllocateMemory(device, &allocate, nullptr, &image.memory) != VK_SUCCESS) return false;
-  VkImageViewCreateInfo view{};
-  view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-  view.image = image.image;
-  view.viewType = view_type;
-  view.format = format;
-  view.subresourceRange = {aspect, 0, 1, 0, layers};
-  return fn.vkBindImageMemory(device, image.image, image.memory, 0) == VK_SUCCESS &&
-         fn.vkCreateImageView(device, &view, nullptr, &image.view) == VK_SUCCESS;
-}
-
-void HeadlessHost::Impl::destroyImage(HostImage& image) {
-  if (image.view) fn.vkDestroyImageView(device, image.view, nullptr);
-  if (image.image) fn.vkDestroyImage(device, image.image, nullptr);
-  if (image.memory) fn.vkFreeMemory(device, image.memory, nullptr);
-  image = {};
-}
-
-bool HeadlessHost::Impl::createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, HostBuffer& buffer) {
-  VkBufferCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-  info.size = size;
-  info.usage = usage;
-  if (fn.vkCreateBuffer(device, &info, nullptr, &buffer.buffer) != VK_SUCCESS) return false;
-  VkMemoryRequirements requirements{};
-  fn.vkGetBufferMemoryRequirements(device, buffer.buffer, &requirements);
-  VkMemoryAllocateFlagsInfo flags{};
-  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
-  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
-  VkMemoryAllocateInfo allocate{};
-  allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-  if (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) allocate.pNext = &flags;
-  allocate.allocationSize = requirements.size;
-  allocate.memoryTypeIndex = memoryType(requirements.memoryTypeBits,
-                                        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-  if (fn.vkAllocateMemory(device, &allocate, nullptr, &buffer.memory) != VK_SUCCESS) return false;
-  buffer.size = size;
-  return fn.vkBindBufferMemory(device, buffer.buffer, buffer.memory, 0) == VK_SUCCESS &&
-         fn.vkMapMemory(device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped) == VK_SUCCESS;
-}
-
-void HeadlessHost::Impl::destroyBuffer(HostBuffer& buffer) {
-  if (buffer.buffer) fn.vkDestroyBuffer(device, buffer.buffer, nullptr);
-  if (buffer.memory) fn.vkFreeMemory(device, buffer.memory, nullptr);
-  buffer = {};
+bool HeadlessHost::Impl::createImage(VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect, GpuImage& image) {
+  return resources.createImage({width, height, 1, VK_IMAGE_VIEW_TYPE_2D, format, usage, aspect}, image);
 }
 
 bool HeadlessHost::Impl::ensureTransfer(VkDeviceSize size) {
   if (transfer.size >= size) return true;
-  destroyBuffer(transfer);
-  return createBuffer(size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, transfer);
+  resources.destroy(transfer);
+  return resources.createBuffer(size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, transfer);
 }
 
 bool HeadlessHost::Impl::ensureOutputs() {
@@ -402,34 +326,14 @@ bool HeadlessHost::Impl::ensureOutputs() {
   return true;
 }
 
-// Everything before, everything after: a test host may wait.
-void HeadlessHost::Impl::transition(VkImage image, const VkImageSubresourceRange& range, VkImageLayout from,
-                                    VkImageLayout to) const {
-  VkImageMemoryBarrier2 barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-  barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-  barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-  barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-  barrier.oldLayout = from;
-  barrier.newLayout = to;
-  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.image = image;
-  barrier.subresourceRange = range;
-  VkDependencyInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  info.imageMemoryBarrierCount = 1;
-  info.pImageMemoryBarriers = &barrier;
-  fn.vkCmdPipelineBarrier2(cmd, &info);
-}
-
-void HeadlessHost::Impl::uploadImage(const HostImage& image, const VkImageSubresourceRange& range,
+void HeadlessHost::Impl::uploadImage(const GpuImage& image, const VkImageSubresourceRange& range,
                                      VkImageLayout to) const {
-  transition(image.image, range, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  resources.transition(cmd, image.image, range, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   VkBufferImageCopy region{};
   region.imageSubresource = {range.aspectMask, 0, 0, 1};
   region.imageExtent = {width, height, 1};
   fn.vkCmdCopyBufferToImage(cmd, transfer.buffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-  transition(image.image, range, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, to);
+  resources.transition(cmd, image.image, range, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, to);
 }
 
 HeadlessHost::HeadlessHost() : impl_(std::make_unique<Impl>()) {}
@@ -437,7 +341,7 @@ HeadlessHost::~HeadlessHost() = default;
 
 std::unique_ptr<HeadlessHost> HeadlessHost::create(const HeadlessOptions& options, std::string& error) {
   std::unique_ptr<HeadlessHost> host(new HeadlessHost);
-  if (!host->impl_->createInstance(options.validation, error) || !host->impl_->createDevice(options, error))
+  if (!host->impl_->createInstance(options, error) || !host->impl_->createDevice(options, error))
     return nullptr;
   return host;
 }
@@ -447,17 +351,18 @@ const std::string& HeadlessHost::driverName() const { return impl_->driver_name;
 VkPhysicalDeviceType HeadlessHost::deviceType() const { return impl_->type; }
 FlkContext HeadlessHost::context() const { return impl_->context; }
 HeadlessHost::Device HeadlessHost::device() const {
-  return {impl_->get_instance_proc_addr, impl_->instance, impl_->physical_device, impl_->device};
+  return {impl_->get_instance_proc_addr, impl_->instance, impl_->physical_device, impl_->device, impl_->queue, impl_->family};
 }
+const GpuResources& HeadlessHost::resources() const { return impl_->resources; }
 std::vector<std::string>& HeadlessHost::validationMessages() { return impl_->validation; }
 std::vector<std::string>& HeadlessHost::messages() { return impl_->messages; }
 
 bool HeadlessHost::resize(uint32_t width, uint32_t height) {
   Impl& i = *impl_;
   if (i.width == width && i.height == height && i.color.view && i.depth.view) return true;
-  i.destroyImage(i.color);
-  i.destroyImage(i.depth);
-  for (HostImage& image : i.outputs) i.destroyImage(image);
+  i.resources.destroy(i.color);
+  i.resources.destroy(i.depth);
+  for (GpuImage& image : i.outputs) i.resources.destroy(image);
   i.width = width, i.height = height;
   i.background.clear();
   i.depth_values.clear();
@@ -473,20 +378,21 @@ bool HeadlessHost::queueHasGraphics() const { return impl_->graphics; }
 
 FlkSampledImage HeadlessHost::uploadArray(uint32_t width, uint32_t height, uint32_t layers, std::span<const float> values) {
   Impl& i = *impl_;
-  HostImage& image = i.uploaded_images.emplace_back();
-  if (!i.createImage({width, height, 1}, layers, VK_IMAGE_VIEW_TYPE_2D_ARRAY, VK_FORMAT_R32_SFLOAT,
-                     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT, image) ||
+  GpuImage& image = i.uploaded_images.emplace_back();
+  if (!i.resources.createImage({width, height, layers, VK_IMAGE_VIEW_TYPE_2D_ARRAY, VK_FORMAT_R32_SFLOAT,
+                                VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT},
+                               image) ||
       !i.ensureTransfer(values.size_bytes()))
     return {};
   std::memcpy(i.transfer.mapped, values.data(), values.size_bytes());
   const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layers};
   submit([&](VkCommandBuffer cmd) {
-    i.transition(image.image, range, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    i.resources.transition(cmd, image.image, range, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, layers};
     region.imageExtent = {width, height, 1};
     i.fn.vkCmdCopyBufferToImage(cmd, i.transfer.buffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-    i.transition(image.image, range, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    i.resources.transition(cmd, image.image, range, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   });
   return {image.image, image.view, range, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
           VK_ACCESS_2_TRANSFER_WRITE_BIT};
@@ -494,18 +400,15 @@ FlkSampledImage HeadlessHost::uploadArray(uint32_t width, uint32_t height, uint3
 
 VkDeviceAddress HeadlessHost::uploadBuffer(std::span<const std::byte> bytes) {
   Impl& i = *impl_;
-  HostBuffer& buffer = i.uploaded_buffers.emplace_back();
-  if (!i.createBuffer(bytes.size(), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT, buffer)) return 0;
+  GpuBuffer& buffer = i.uploaded_buffers.emplace_back();
+  if (!i.resources.createBuffer(bytes.size(), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT, buffer)) return 0;
   std::memcpy(buffer.mapped, bytes.data(), bytes.size());
-  VkBufferDeviceAddressInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
-  info.buffer = buffer.buffer;
-  return i.fn.vkGetBufferDeviceAddress(i.device, &info);
+  return i.resources.address(buffer);
 }
 
 void HeadlessHost::freeUploads() {
-  for (HostImage& image : impl_->uploaded_images) impl_->destroyImage(image);
-  for (HostBuffer& buffer : impl_->uploaded_buffers) impl_->destroyBuffer(buffer);
+  for (GpuImage& image : impl_->uploaded_images) impl_->resources.destroy(image);
+  for (GpuBuffer& buffer : impl_->uploaded_buffers) impl_->resources.destroy(buffer);
   impl_->uploaded_images.clear();
   impl_->uploaded_buffers.clear();
 }
@@ -617,7 +520,7 @@ FlkResult HeadlessHost::renderTogether(FlkView view, std::span<FlkFrame> frames,
     for (const FlkPlan plan : plans) {
       if (i.background.empty()) {
         const VkClearColorValue transparent{};
-        i.transition(i.color.image, kColorRange, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        i.resources.transition(cmd, i.color.image, kColorRange, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         i.fn.vkCmdClearColorImage(cmd, i.color.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &transparent, 1,
                                   &kColorRange);
       } else {
@@ -627,7 +530,7 @@ FlkResult HeadlessHost::renderTogether(FlkView view, std::span<FlkFrame> frames,
         if (!(i.output_mask >> o & 1)) continue;
         VkClearColorValue unset{};
         for (float& value : unset.float32) value = -1;
-        i.transition(i.outputs[o].image, kColorRange, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        i.resources.transition(cmd, i.outputs[o].image, kColorRange, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         i.fn.vkCmdClearColorImage(cmd, i.outputs[o].image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &unset, 1, &kColorRange);
       }
       flkCmdRender(cmd, plan);
@@ -665,13 +568,13 @@ std::vector<float> HeadlessHost::readShadowMap(const FlkShadowMap& map) {
   if (!i.ensureTransfer(values * 4)) return {};
   const VkImageSubresourceRange range = map.format == VK_FORMAT_D32_SFLOAT ? kDepthRange : kColorRange;
   submit([&](VkCommandBuffer cmd) {
-    i.transition(map.image, range, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    i.resources.transition(cmd, map.image, range, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     VkBufferImageCopy region{};
     region.imageSubresource = {range.aspectMask, 0, 0, 1};
     region.imageOffset = {int32_t(map.offset[0]), int32_t(map.offset[1]), 0};
     region.imageExtent = {map.size, map.size, 1};
     i.fn.vkCmdCopyImageToBuffer(cmd, map.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1, &region);
-    i.transition(map.image, range, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    i.resources.transition(cmd, map.image, range, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   });
   std::memcpy(depth.data(), i.transfer.mapped, values * 4);
   return depth;

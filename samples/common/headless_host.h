@@ -1,4 +1,4 @@
-// A host engine without a window: instance, device, one queue, a colour and a depth image; draws frames and reads them back.
+// A host engine without a window of its own: instance, device, one queue, a colour and a depth image; draws frames and reads them back.
 // What the command, the study and the GPU tests render with. The Vulkan loader is opened at run time, so that programs start
 // where there is none.
 #pragma once
@@ -13,10 +13,15 @@
 
 namespace forelock::samples {
 
+class GpuResources;
+
 struct HeadlessOptions {
   bool validation = false;   // core and synchronization validation; messages are collected
   std::string device_name;   // part of the device's name; empty: a discrete GPU, else any other, else a CPU device
   bool compute_queue = false;// a queue family without graphics, where the device has one
+  // For a program with a window: what its surface and swapchain need, and which queue families may present.
+  std::vector<const char*> instance_extensions, device_extensions;
+  std::function<bool(VkInstance, VkPhysicalDevice, uint32_t family)> can_present;
 };
 
 class HeadlessHost {
@@ -37,8 +42,11 @@ public:
     VkInstance instance;
     VkPhysicalDevice physical_device;
     VkDevice device;
+    VkQueue queue;
+    uint32_t queue_family;
   };
   Device device() const;
+  const GpuResources& resources() const;
   // What the validation layers and Forelock's message callback have said.
   std::vector<std::string>& validationMessages();
   std::vector<std::string>& messages();

@@ -544,18 +544,23 @@ FlkResult HeadlessHost::statistics(FlkView view, FlkStatistics& statistics) cons
   return flkViewGetStatistics(view, impl_->frame, &statistics);
 }
 
-std::vector<float> HeadlessHost::readColor() {
+std::vector<float> HeadlessHost::readColor() { return readImage(impl_->color, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL); }
+
+std::vector<float> HeadlessHost::readImage(const GpuImage& image, VkImageLayout layout) {
   Impl& i = *impl_;
-  const std::size_t values = std::size_t(i.width) * i.height * 4;
+  const std::size_t values = std::size_t(image.width) * image.height * 4;
   std::vector<float> rgba(values);
   if (!i.ensureTransfer(values * 2)) return {};
-  submit([&](VkCommandBuffer cmd) {
+  const bool move = layout != VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+  const bool done = submit([&](VkCommandBuffer cmd) {
+    if (move) i.resources.transition(cmd, image, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageExtent = {i.width, i.height, 1};
-    i.fn.vkCmdCopyImageToBuffer(cmd, i.color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1,
-                                &region);
+    region.imageExtent = {image.width, image.height, 1};
+    i.fn.vkCmdCopyImageToBuffer(cmd, image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1, &region);
+    if (move) i.resources.transition(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
   });
+  if (!done) return {};
   const auto* half = static_cast<const uint16_t*>(i.transfer.mapped);
   std::transform(half, half + values, rgba.begin(), halfToFloat);
   return rgba;

@@ -14,6 +14,7 @@
 namespace forelock::samples {
 
 class GpuResources;
+struct GpuImage;
 
 struct HeadlessOptions {
   bool validation = false;   // core and synchronization validation; messages are collected
@@ -71,6 +72,8 @@ public:
   FlkResult statistics(FlkView view, FlkStatistics& statistics) const;
 
   std::vector<float> readColor();                               // width x height x RGBA
+  // Of any image of halves of four channels, which is left in the layout that it is in; empty: no memory, or the device is lost.
+  std::vector<float> readImage(const GpuImage& image, VkImageLayout layout);
   std::vector<float> readShadowMap(const FlkShadowMap& map);    // size x size
 
   // Pictures besides the colour for the frames that follow, cleared to -1 before each: bits 1 << FLK_OUTPUT_...

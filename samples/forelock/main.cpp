@@ -1,6 +1,10 @@
 // The `forelock` command. SPDX-License-Identifier: MIT
 #include "commands.h"
 
+#ifdef FORELOCK_VIEWER
+#include "view_command.h"
+#endif
+
 #include <cstdio>
 #include <exception>
 
@@ -14,6 +18,7 @@ constexpr const char* kDescription =
 constexpr const char* kExamples =
     "Examples:\n"
     "  forelock preview groom:long-wavy -o hair.png     a picture, framed and lit by itself\n"
+    "  forelock view groom:long-wavy                    a window: turn it, light it, compare methods, see what they cost\n"
     "  forelock plan groom:long-wavy             the passes and bytes that it takes; needs no device\n"
     "  forelock inspect pony.tfx                 what is in a file, and what is wrong with it\n"
     "  forelock convert pony.tfx pony.hair       another format; says what is lost\n"
@@ -43,6 +48,9 @@ int main(int argc, char** argv) {
   addDiffCommand(program, exit_code);
   addGroomCommand(program, exit_code);
   addReportCommand(program, exit_code);
+#ifdef FORELOCK_VIEWER
+  addViewCommand(program, exit_code);
+#endif
 
   if (argc < 2) {
     std::fputs(program.help().c_str(), stderr);

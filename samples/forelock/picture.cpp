@@ -22,33 +22,6 @@ constexpr uint32_t kSoundingSize = 320;  // pixels of the longer side of the fir
 
 double luminance(const glm::dvec3& rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
 
-// Hair of the brown of pictureMaterial is to come out at a mean of 0.065; lighter and darker hair keeps half (on a log
-// scale) of its difference to that, so that black stays black and blond is not white. Highlights may not burn out over
-// more than one pixel in 200.
-double chooseExposure(const std::vector<float>& rgba, double radiance, const Stage& stage) {
-  std::vector<double> values;
-  for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
-    if (rgba[i + 3] > 0.25f) {
-      values.push_back(luminance({rgba[i], rgba[i + 1], rgba[i + 2]}) / static_cast<double>(rgba[i + 3]));
-    }
-  }
-  if (values.empty()) {
-    return radiance;
-  }
-  double mean = 0.0;
-  for (const double value : values) {
-    mean += value / static_cast<double>(values.size());
-  }
-  const auto high = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 199 / 200);
-  std::nth_element(values.begin(), high, values.end());
-  const FlkMaterial brown = pictureMaterial();
-  const double lightness = std::max(luminance(stage.assets[0].reflectance), 0.004) / luminance(glm::dvec3(
-      brown.color[0], brown.color[1], brown.color[2]));
-  const double wanted = 0.065 * std::sqrt(lightness);
-  const double scale = std::min(wanted / std::max(mean, 1e-9), 0.95 / std::max(*high, 1e-9));
-  return radiance * std::clamp(scale, 1e-6, 1e6);
-}
-
 float depthValue(const float projection[16], float depth) {
   const float z = projection[10] * -depth + projection[14];
   const float w = projection[11] * -depth + projection[15];
@@ -155,6 +128,33 @@ BustLook litBust(const Stage& stage, const Camera& camera) {
 
 }  // namespace
 
+// Hair of the brown of pictureMaterial is to come out at a mean of 0.065; lighter and darker hair keeps half (on a log
+// scale) of its difference to that, so that black stays black and blond is not white. Highlights may not burn out over
+// more than one pixel in 200.
+double exposureOf(const std::vector<float>& rgba, const Stage& stage) {
+  std::vector<double> values;
+  for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
+    if (rgba[i + 3] > 0.25f) {
+      values.push_back(luminance({rgba[i], rgba[i + 1], rgba[i + 2]}) / static_cast<double>(rgba[i + 3]));
+    }
+  }
+  if (values.empty()) {
+    return 1.0;
+  }
+  double mean = 0.0;
+  for (const double value : values) {
+    mean += value / static_cast<double>(values.size());
+  }
+  const auto high = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 199 / 200);
+  std::nth_element(values.begin(), high, values.end());
+  const FlkMaterial brown = pictureMaterial();
+  const double lightness = std::max(luminance(stage.assets[0].reflectance), 0.004) / luminance(glm::dvec3(
+      brown.color[0], brown.color[1], brown.color[2]));
+  const double wanted = 0.065 * std::sqrt(lightness);
+  const double scale = std::min(wanted / std::max(mean, 1e-9), 0.95 / std::max(*high, 1e-9));
+  return std::clamp(scale, 1e-6, 1e6);
+}
+
 // What a small picture without a head tells.
 struct Painter::Sounding {
   double exposure = 1.0;
@@ -214,7 +214,7 @@ Painter::Sounding Painter::sound(const Camera& camera) {
   StagedFrame staged(stage_, camera, hairs_, 1.0, width, height);
   Picture picture;
   drawUntilWhole(staged.frame, picture);
-  sounding.exposure = chooseExposure(host_.readColor(), 1.0, stage_);
+  sounding.exposure = exposureOf(host_.readColor(), stage_);
   const size_t shadowing = *scene.head ? std::min(scene.lights.size(), kMostBustShadows) : 0;
   for (size_t i = 0; i < shadowing; ++i) {
     const auto shadow = std::make_shared<HairShadow>();

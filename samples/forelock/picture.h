@@ -25,6 +25,9 @@ struct Picture {
   }
 };
 
+// The exposure for a picture of the stage whose pixels, drawn with exposure 1, are these (RGBA, premultiplied).
+double exposureOf(const std::vector<float>& rgba, const Stage& stage);
+
 class Painter {
  public:
   // Uploads the stage's hair. Throws AssetError.

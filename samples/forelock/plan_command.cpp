@@ -44,19 +44,6 @@ std::string hashText(uint64_t hash) {
   return text;
 }
 
-std::string workOf(const FlkPassInfo& pass) {
-  if (pass.indices > 0) {
-    return groupedDigits(pass.indices) + " indices";
-  }
-  if (pass.segments > 0) {
-    return groupedDigits(pass.segments) + " segments";
-  }
-  if (pass.groups[0] > 0) {
-    return groupedDigits(uint64_t{pass.groups[0]} * pass.groups[1] * pass.groups[2]) + " workgroups";
-  }
-  return "fills and barriers";
-}
-
 uint64_t segmentsOf(const StagedAsset& asset) {
   return uint64_t{asset.info.vertex_count - asset.info.strand_count} * (1 + uint64_t{asset.follow.count});
 }
@@ -84,7 +71,7 @@ void printText(const Stage& stage, const Planned& planned) {
   std::printf("\n%-*s  %-20s  code\n", names + 2, "pass", "work");
   for (const FlkPassInfo& pass : planned.passes) {
     const std::string hash = hashText(pass.hash);
-    std::printf("  %-*s  %-*s%s\n", names, pass.name, hash.empty() ? 0 : 22, workOf(pass).c_str(), hash.c_str());
+    std::printf("  %-*s  %-*s%s\n", names, pass.name, hash.empty() ? 0 : 22, passWork(pass).c_str(), hash.c_str());
   }
   std::printf("\n%-*s  %12s  %-20s  why\n", names + 2, "resource", "bytes", "held");
   const auto line = [&](const char* name, uint64_t bytes, const char* held, const char* why) {

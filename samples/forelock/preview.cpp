@@ -21,13 +21,6 @@ namespace {
 
 constexpr const char* kStages[FLK_STAGE_COUNT] = {"clear", "shadow", "capture", "resolve", "prepare", "output"};
 
-std::string numberedPath(const std::string& path, uint32_t number) {
-  char suffix[16];
-  std::snprintf(suffix, sizeof suffix, "-%03u", number);
-  const fs::path p(path);
-  return (p.parent_path() / (p.stem().string() + suffix + p.extension().string())).string();
-}
-
 // All views of a turntable side by side without gaps, each averaged down so that the sheet is at most about 2048 pixels wide.
 class Strip {
  public:
@@ -180,29 +173,6 @@ void warnOfPicture(const std::string& out, const Picture& picture) {
 }
 
 }  // namespace
-
-void savePicture(const std::string& path, const Image& image) {
-  const fs::path target(path);
-  const fs::path temporary =
-      target.parent_path() / ("." + target.stem().string() + "." + std::to_string(getpid()) + target.extension().string());
-  std::error_code error;
-  try {
-    writeImage(temporary.string(), image);
-    fs::rename(temporary, target, error);
-  } catch (const std::runtime_error& failure) {
-    std::string why = failure.what();  // which may name the temporary file
-    if (const size_t at = why.find(temporary.string()); at != std::string::npos) {
-      why.replace(at, temporary.string().size(), path);
-    }
-    fs::remove(temporary, error);
-    throw AssetError(FLK_ERROR_IO, path + ": " + why);
-  }
-  if (error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw AssetError(FLK_ERROR_IO, path + ": cannot be replaced: " + error.message());
-  }
-}
 
 Scene previewScene(const CLI::App& command, const PreviewArguments& arguments) {
   Scene scene = makeScene(command, arguments);

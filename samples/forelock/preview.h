@@ -3,6 +3,7 @@
 #pragma once
 
 #include "picture.h"
+#include "picture_file.h"
 #include "scene_options.h"
 
 #include <string>
@@ -38,8 +39,5 @@ int runPreviewBatch(const CLI::App& command, const PreviewArguments& arguments, 
 
 // Draws now and whenever one of the scene's files changes, until it is interrupted.
 int runPreviewWatch(const CLI::App& command, const PreviewArguments& arguments, HeadlessHost& host);
-
-// Through a file beside it, so that who reads it meanwhile sees a whole picture. Throws AssetError.
-void savePicture(const std::string& path, const Image& image);
 
 }  // namespace forelock::samples

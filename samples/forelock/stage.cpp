@@ -20,7 +20,7 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr size_t kMostSeen = 1u << 20;  // points for framing: one in so many is left out beyond
 
-void placeAsset(const SceneAsset& asset, UpAxis up, double matrix[16]) {
+void placementOf(const SceneAsset& asset, UpAxis up, double matrix[16]) {
   const double c = std::cos(asset.turn_deg * kDegree) * asset.scale;
   const double s = std::sin(asset.turn_deg * kDegree) * asset.scale;
   std::fill(matrix, matrix + 16, 0.0);
@@ -110,7 +110,22 @@ void noteUpAxis(Stage& stage, const StagedAsset& asset) {
 
 }  // namespace
 
-Stage openStage(const Scene& scene) {
+void placeAsset(const SceneAsset& wanted, UpAxis up, StagedAsset& asset) { placementOf(wanted, up, asset.world_from_hair); }
+
+std::string passWork(const FlkPassInfo& pass) {
+  if (pass.indices > 0) {
+    return groupedDigits(pass.indices) + " indices";
+  }
+  if (pass.segments > 0) {
+    return groupedDigits(pass.segments) + " segments";
+  }
+  if (pass.groups[0] > 0) {
+    return groupedDigits(uint64_t{pass.groups[0]} * pass.groups[1] * pass.groups[2]) + " workgroups";
+  }
+  return "fills and barriers";
+}
+
+Stage openStage(const Scene& scene, const ProgressFunction& progress) {
   Stage stage;
   stage.scene = scene;
   bool on_bust = false;
@@ -119,14 +134,14 @@ Stage openStage(const Scene& scene) {
   for (const SceneAsset& wanted : scene.assets) {
     StagedAsset& asset = stage.assets.emplace_back();
     {
-      Progress progress("opening " + wanted.source);
-      asset.opened = openAsset(wanted.source, [&](uint64_t done, uint64_t total) { progress.update(done, total); },
-                               {wanted.points_per_strand, true});  // --watch: its exporter may be at it
+      Progress bar("opening " + wanted.source);
+      const ProgressFunction own = [&](uint64_t done, uint64_t total) { bar.update(done, total); };
+      asset.opened = openAsset(wanted.source, progress ? progress : own, {wanted.points_per_strand, true});  // --watch: its exporter may be at it
     }
     printMessages(*asset.opened.messages, false);
     flkAssetGetInfo(asset.opened.asset.get(), &asset.info);
     stageLook(wanted, asset, stage.notes);
-    placeAsset(wanted, scene.camera.up, asset.world_from_hair);
+    placeAsset(wanted, scene.camera.up, asset);
     on_bust = on_bust || (asset.opened.recipe && asset.opened.recipe->drape_on_bust);
   }
   for (const StagedAsset& asset : stage.assets) {  // only now, because the list no longer moves

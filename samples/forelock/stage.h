@@ -36,8 +36,15 @@ struct Stage {
   double aspect() const { return static_cast<double>(scene.width) / static_cast<double>(scene.height); }
 };
 
-// Shows progress; prints what the library has to say of the assets. With the scene's colouring. Throws AssetError or UsageError.
-Stage openStage(const Scene& scene);
+// Shows progress, or tells it to `progress`; prints what the library has to say of the assets. With the scene's colouring. Throws
+// AssetError or UsageError.
+Stage openStage(const Scene& scene, const ProgressFunction& progress = {});
+
+// world_from_hair as the scene places it.
+void placeAsset(const SceneAsset& wanted, UpAxis up, StagedAsset& asset);
+
+// A sentence on what a pass goes over: "1,234 segments".
+std::string passWork(const FlkPassInfo& pass);
 
 // Material, width and follow strands of an opened asset: its own, and what the scene wants of it. What was decided otherwise than asked
 // for goes into `notes`. Throws AssetError.

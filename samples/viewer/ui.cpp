@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "ui.h"
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace forelock::samples::ui {
+
+namespace {
+
+struct Notes {
+  std::vector<Item> items;
+  std::string prefix, wanted;
+  bool note = false;
+};
+Notes notes;  // Dear ImGui has one context, and so has this
+
+float encode(float linear) {
+  const float c = std::clamp(linear, 0.0f, 1.0f);
+  return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+}
+
+float decode(float coded) { return coded <= 0.04045f ? coded / 12.92f : std::pow((coded + 0.055f) / 1.055f, 2.4f); }
+
+// Labels stand left of their widgets' end, so that long ones are not cut.
+void labelWidth() { ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f); }
+
+}  // namespace
+
+void begin(bool note) {
+  notes.items.clear();
+  notes.prefix.clear();
+  notes.note = note;
+}
+
+const std::vector<Item>& items() { return notes.items; }
+void reveal(const std::string& name) { notes.wanted = name; }
+
+void noteItem(const std::string& label, bool open) {
+  if (!notes.note) {
+    return;
+  }
+  const std::string name = notes.prefix + label.substr(0, label.find("##"));
+  notes.items.push_back({name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), open});
+  if (name == notes.wanted) {
+    notes.wanted.clear();
+    ImGui::SetScrollHereY(0.5f);
+  }
+}
+
+Section::Section(const char* label, bool open_at_first, const char* words) {
+  open_ = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  tip(words);
+  noteItem(label, open_);
+  notes.prefix += std::string(label) + "/";
+  ImGui::PushID(label);
+  if (open_) {
+    ImGui::Indent(4.0f);
+  }
+}
+
+Section::~Section() {
+  if (open_) {
+    ImGui::Unindent(4.0f);
+    ImGui::Spacing();
+  }
+  ImGui::PopID();
+  notes.prefix.resize(notes.prefix.rfind('/', notes.prefix.size() - 2) + 1);
+}
+
+Scope::Scope(const std::string& name) {
+  notes.prefix += name + "/";
+  ImGui::PushID(name.c_str());
+}
+
+Scope::~Scope() {
+  ImGui::PopID();
+  const size_t cut = notes.prefix.size() < 2 ? std::string::npos : notes.prefix.rfind('/', notes.prefix.size() - 2);
+  notes.prefix.resize(cut == std::string::npos ? 0 : cut + 1);
+}
+
+void tip(const char* words) {
+  if (words && *words && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && !ImGui::IsItemActive()) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
+    ImGui::TextUnformatted(words);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+}
+
+bool button(const char* label, const char* words, bool enabled) {
+  ImGui::BeginDisabled(!enabled);
+  const bool pressed = ImGui::Button(label);
+  ImGui::EndDisabled();
+  tip(words);
+  noteItem(label);
+  return pressed;
+}
+
+bool smallButton(const char* label, const char* words) {
+  const bool pressed = ImGui::SmallButton(label);
+  tip(words);
+  noteItem(label);
+  return pressed;
+}
+
+bool checkbox(const char* label, bool& value, const char* words) {
+  const bool changed = ImGui::Checkbox(label, &value);
+  tip(words);
+  noteItem(label);
+  return changed;
+}
+
+bool choose(const char* label, uint32_t& index, const std::vector<std::string>& names, const char* words) {
+  labelWidth();
+  const char* shown = index < names.size() ? names[index].c_str() : "?";
+  const bool open = ImGui::BeginCombo(label, shown, ImGuiComboFlags_HeightLarge);
+  if (!open) {
+    tip(words);
+  }
+  noteItem(label, open);
+  bool changed = false;
+  if (open) {
+    const Scope scope(std::string(label, std::string(label).find("##")));
+    for (uint32_t i = 0; i < names.size(); ++i) {
+      if (selectable(names[i], i == index)) {
+        changed = i != index;
+        index = i;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  return changed;
+}
+
+bool slide(const char* label, double& value, double low, double high, const char* words, const char* format, bool logarithmic) {
+  labelWidth();
+  const ImGuiSliderFlags flags = logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
+  const bool changed = ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format, flags | ImGuiSliderFlags_AlwaysClamp);
+  tip(words);
+  noteItem(label);
+  return changed;
+}
+
+bool slide(const char* label, float& value, double low, double high, const char* words, const char* format, bool logarithmic) {
+  double wide = static_cast<double>(value);
+  const bool changed = slide(label, wide, low, high, words, format, logarithmic);
+  if (changed) {
+    value = static_cast<float>(wide);
+  }
+  return changed;
+}
+
+bool slide(const char* label, uint32_t& value, uint32_t low, uint32_t high, const char* words) {
+  labelWidth();
+  const bool changed = ImGui::SliderScalar(label, ImGuiDataType_U32, &value, &low, &high, "%u", ImGuiSliderFlags_AlwaysClamp);
+  tip(words);
+  noteItem(label);
+  return changed;
+}
+
+bool color(const char* label, float linear[3], const char* words) {
+  float coded[3] = {encode(linear[0]), encode(linear[1]), encode(linear[2])};
+  labelWidth();
+  const bool changed = ImGui::ColorEdit3(label, coded, ImGuiColorEditFlags_DisplayHex);
+  if (changed) {
+    for (int i = 0; i < 3; ++i) {
+      linear[i] = decode(coded[i]);
+    }
+  }
+  tip(words);
+  noteItem(label);
+  return changed;
+}
+
+bool selectable(const std::string& label, bool selected) {
+  const bool pressed = ImGui::Selectable(label.c_str(), selected);
+  if (selected) {
+    ImGui::SetItemDefaultFocus();
+  }
+  noteItem(label);
+  return pressed;
+}
+
+bool menuItem(const char* label, const char* keys, bool enabled) {
+  const bool pressed = ImGui::MenuItem(label, keys, false, enabled);
+  noteItem(label);
+  return pressed;
+}
+
+bool menuCheck(const char* label, const char* keys, bool& value) {
+  const bool pressed = ImGui::MenuItem(label, keys, &value);
+  noteItem(label);
+  return pressed;
+}
+
+bool textInput(const char* label, std::string& value, const char* words) {
+  labelWidth();
+  const bool changed = ImGui::InputText(label, &value);
+  tip(words);
+  noteItem(label);
+  return changed;
+}
+
+void text(const std::string& words) { ImGui::TextWrapped("%s", words.c_str()); }
+
+void faintText(const std::string& words) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", words.c_str());
+  ImGui::PopStyleColor();
+}
+
+void fact(const char* name, const std::string& value) {
+  ImGui::TextDisabled("%s", name);
+  ImGui::SameLine(ImGui::GetFontSize() * 7.0f);
+  ImGui::TextWrapped("%s", value.c_str());
+}
+
+}  // namespace forelock::samples::ui

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include "view_layers.h"
+
+#include "commands.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace forelock::samples {
+
+namespace {
+
+constexpr uint64_t kPoolBudget = uint64_t{1} << 30;  // as `forelock preview`: the same picture where lists are long
+constexpr uint32_t kSoundingSize = 320;              // likewise
+constexpr uint32_t kCheapShadow = 512, kCheapTaps = 4;
+
+}  // namespace
+
+ViewLayers::ViewLayers(HeadlessHost& host, const ViewGpu& gpu) : host_(host), gpu_(gpu) {}
+
+ViewLayers::~ViewLayers() {
+  for (Slot& slot : slots_) {
+    host_.resources().destroy(slot.hair);
+  }
+  host_.resources().destroy(counter_.hair);
+}
+
+void ViewLayers::check(FlkResult result, const char* what) const {
+  if (result == FLK_SUCCESS) {
+    return;
+  }
+  std::string text = std::string(what) + " failed with " + flkResultName(result);
+  if (!host_.messages().empty()) {
+    text += " (" + host_.messages().back() + ")";
+  }
+  throw AssetError(result, text);
+}
+
+Hair ViewLayers::upload(const FlkHairDesc& desc, const double world_from_hair[16]) {
+  FlkHair handle = nullptr;
+  check(host_.createHair(desc, &handle), "uploading the hair");
+  Hair hair(handle);
+  check(flkHairSetTransform(hair, world_from_hair), "placing the hair");
+  return hair;
+}
+
+void ViewLayers::setStage(const Stage& stage) {
+  for (Slot& slot : slots_) {
+    slot.plan = nullptr;
+    slot.valid = slot.planned = false;
+  }
+  few_.clear();
+  hairs_.clear();
+  stage_ = nullptr;
+  std::vector<Hair> hairs;
+  for (const StagedAsset& asset : stage.assets) {
+    hairs.push_back(upload(stagedHairDesc(asset), asset.world_from_hair));
+  }
+  hairs_ = std::move(hairs);
+  stage_ = &stage;
+}
+
+void ViewLayers::setFewStrands(const std::vector<std::unique_ptr<OpenedAsset>>& assets) {
+  few_.clear();
+  for (size_t i = 0; stage_ && i < std::min(assets.size(), stage_->assets.size()); ++i) {
+    const StagedAsset& whole = stage_->assets[i];
+    FlkHairDesc desc = stagedHairDesc(whole);
+    desc.asset = assets[i] ? assets[i]->asset.get() : desc.asset;
+    few_.push_back(upload(desc, whole.world_from_hair));
+  }
+}
+
+void ViewLayers::updateLook() {
+  for (std::vector<Hair>* hairs : {&hairs_, &few_}) {
+    for (size_t i = 0; i < hairs->size(); ++i) {
+      check(flkHairSetMaterial((*hairs)[i], &stage_->assets[i].material), "setting a material");
+      check(flkHairSetTransform((*hairs)[i], stage_->assets[i].world_from_hair), "placing the hair");
+    }
+  }
+}
+
+void ViewLayers::renewHair(size_t index) {
+  const StagedAsset& asset = stage_->assets[index];
+  hairs_[index] = upload(stagedHairDesc(asset), asset.world_from_hair);
+  few_.clear();  // of other follow strands or colours
+}
+
+void ViewLayers::ensureImage(GpuImage& image, uint32_t width, uint32_t height) {
+  if (image.view && image.width == width && image.height == height) {
+    return;
+  }
+  host_.resources().destroy(image);
+  GpuImageShape shape;
+  shape.width = width;
+  shape.height = height;
+  shape.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  if (!host_.resources().createImage(shape, image)) {
+    check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "making an image");
+  }
+}
+
+void ViewLayers::ensureView(Slot& slot) {
+  if (!slot.view) {
+    FlkViewDesc desc = viewDesc();
+    desc.pool_budget = kPoolBudget;
+    check(create(host_.context(), desc, slot.view), "making a view");
+  }
+}
+
+double ViewLayers::chooseExposure(const Camera& camera) {
+  const Scene& scene = stage_->scene;
+  const uint32_t longer = std::max(scene.width, scene.height);
+  LayerRequest request;
+  request.camera = camera;
+  const auto reduced = [&](uint32_t side) {
+    return longer <= kSoundingSize ? side : std::max(1u, static_cast<uint32_t>(uint64_t{side} * kSoundingSize / longer));
+  };
+  request.width = reduced(scene.width);
+  request.height = reduced(scene.height);
+  request.methods[kLayerFirst] = methodOf(scene);
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    plan(request);
+    if (!host_.submit([&](VkCommandBuffer cmd) { record(cmd); })) {
+      check(FLK_ERROR_DEVICE_LOST, "drawing");
+    }
+    if (!finish()) {
+      break;
+    }
+  }
+  return exposureOf(readHair(kLayerFirst), *stage_);
+}
+
+void ViewLayers::plan(const LayerRequest& request) {
+  last_ = request;
+  Stage cheap_stage;  // of a scene alone: what a frame reads of a stage besides its hairs
+  const Stage* stage = stage_;
+  if (request.cheap) {
+    cheap_stage.scene = stage_->scene;
+    for (SceneLight& light : cheap_stage.scene.lights) {
+      light.shadow_size = std::min(light.shadow_size, kCheapShadow);
+    }
+    stage = &cheap_stage;
+  }
+  const std::vector<Hair>& hairs = request.few_strands && few_.size() == hairs_.size() ? few_ : hairs_;
+  StagedFrame staged(*stage, request.camera, hairs, request.exposure, request.width, request.height);
+  for (uint32_t i = 0; i < kLayerCount; ++i) {
+    Slot& slot = slots_[i];
+    slot.planned = false;
+    if (!request.methods[i]) {
+      slot.valid = false;
+      continue;
+    }
+    ensureView(slot);
+    ensureImage(slot.hair, request.width, request.height);
+    FlkFrame frame = staged.frame;
+    applyMethod(*request.methods[i], frame);
+    if (request.cheap && frame.core_taps == 0) {
+      frame.core_taps = kCheapTaps;
+    }
+    frame.count_work = request.count_work ? 1 : 0;
+    frame.frame_number = slot.frame + 1;
+    frame.completed_frame = slot.frame;
+    frame.target = {slot.hair.image,
+                    slot.hair.view,
+                    slot.hair.format,
+                    VK_SAMPLE_COUNT_1_BIT,
+                    slot.hair.range,
+                    request.width,
+                    request.height,
+                    {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                    {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}};
+    check(flkPlanFrame(slot.view, &frame, &slot.plan), "planning a frame");
+    ++slot.frame;
+    slot.planned = true;
+  }
+}
+
+void ViewLayers::record(VkCommandBuffer cmd) {
+  for (Slot& slot : slots_) {
+    if (!slot.planned) {
+      continue;
+    }
+    const VkClearColorValue transparent{};
+    host_.resources().transition(cmd, slot.hair, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    gpu_.vkCmdClearColorImage(cmd, slot.hair.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &transparent, 1, &slot.hair.range);
+    flkCmdRender(cmd, slot.plan);
+  }
+}
+
+bool ViewLayers::finish() {
+  bool again = false;
+  for (Slot& slot : slots_) {
+    if (!slot.planned) {
+      continue;
+    }
+    check(flkViewGetStatistics(slot.view, slot.frame, &slot.facts.statistics), "reading the statistics");
+    again = again || slot.facts.statistics.overflow_fragments > 0;
+    describe(slot);
+    slot.valid = true;
+    slot.planned = false;
+  }
+  return again;
+}
+
+void ViewLayers::describe(Slot& slot) {
+  LayerFacts& facts = slot.facts;
+  facts.passes.clear();
+  facts.resources.clear();
+  facts.omissions.clear();
+  check(flkPlanGetInfo(slot.plan, &facts.plan), "asking the plan");
+  for (uint32_t i = 0; i < facts.plan.pass_count; ++i) {
+    FlkPassInfo pass = {};
+    check(flkPlanGetPass(slot.plan, i, &pass), "asking the plan");
+    facts.passes.push_back({pass.name, pass.stage, passWork(pass)});
+  }
+  for (uint32_t i = 0; i < facts.plan.resource_count; ++i) {
+    FlkResourceInfo resource = {};
+    check(flkPlanGetResource(slot.plan, i, &resource), "asking the plan");
+    facts.resources.push_back({resource.name, resource.why, resource.bytes, resource.transient != 0});
+  }
+  for (uint32_t i = 0; const char* omission = flkPlanGetOmission(slot.plan, i); ++i) {
+    facts.omissions.emplace_back(omission);
+  }
+}
+
+std::vector<float> ViewLayers::readHair(LayerIndex layer) {
+  return host_.readImage(slots_[layer].hair, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+Image ViewLayers::read(LayerIndex layer) {
+  Image image(slots_[layer].hair.width, slots_[layer].hair.height);
+  image.rgba = readHair(layer);
+  if (image.rgba.empty()) {
+    check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "reading the picture back");
+  }
+  return image;
+}
+
+// The pixel's own frustum, drawn into a target of one pixel, and only counted: widths in pixels are as in the picture.
+uint64_t ViewLayers::countFragments(uint32_t x, uint32_t y) {
+  StagedFrame staged(*stage_, last_.camera, hairs_, last_.exposure, last_.width, last_.height);
+  FlkFrame& frame = staged.frame;
+  const auto crop = [&](int row, uint32_t at, uint32_t size) {
+    const float middle = 2.0f * (static_cast<float>(at) + 0.5f) / static_cast<float>(size) - 1.0f;
+    for (int column = 0; column < 4; ++column) {
+      float& value = frame.clip_from_view[4 * column + row];
+      value = static_cast<float>(size) * (value - middle * frame.clip_from_view[4 * column + 3]);
+    }
+  };
+  crop(0, x, last_.width);
+  crop(1, y, last_.height);
+  Slot& slot = counter_;
+  ensureView(slot);
+  ensureImage(slot.hair, 1, 1);
+  frame.display = FLK_DISPLAY_SHADED;
+  frame.light_count = 0;
+  frame.count_only = 1;
+  frame.timestamps = FLK_TIMESTAMPS_NONE;
+  frame.frame_number = slot.frame + 1;
+  frame.completed_frame = slot.frame;
+  const FlkImageState state{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+  frame.target = {slot.hair.image, slot.hair.view, slot.hair.format, VK_SAMPLE_COUNT_1_BIT, slot.hair.range, 1, 1, state, state};
+  check(flkPlanFrame(slot.view, &frame, &slot.plan), "planning a frame");
+  ++slot.frame;
+  const bool done = host_.submit([&](VkCommandBuffer cmd) {
+    host_.resources().transition(cmd, slot.hair, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    flkCmdRender(cmd, slot.plan);
+  });
+  check(done ? FLK_SUCCESS : FLK_ERROR_DEVICE_LOST, "counting fragments");
+  FlkStatistics statistics{};
+  check(flkViewGetStatistics(slot.view, slot.frame, &statistics), "reading the statistics");
+  return statistics.fragments;
+}
+
+}  // namespace forelock::samples

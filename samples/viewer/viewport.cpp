@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "viewport.h"
+
+#include "commands.h"
+#include "ui.h"
+#include "view_measure.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace forelock::samples {
+
+namespace {
+
+constexpr float kClickPx = 4.0f;          // a button that moved less was a click
+constexpr double kCountAfter_s = 0.15;    // of a mouse that is still
+constexpr size_t kMostDrawnStrands = 2000;
+
+}  // namespace
+
+void Viewport::size(uint32_t& width, uint32_t& height) const {
+  width = std::clamp(static_cast<uint32_t>(std::lround(rect_.width * scale_)), 16u, 16384u);
+  height = std::clamp(static_cast<uint32_t>(std::lround(rect_.height * scale_)), 16u, 16384u);
+}
+
+ViewportRect Viewport::pixels() const {
+  uint32_t width = 0, height = 0;
+  size(width, height);
+  return {std::round(rect_.x * scale_), std::round(rect_.y * scale_), static_cast<float>(width), static_cast<float>(height)};
+}
+
+void Viewport::draw(ViewSession& session, ViewLayers& layers, const ViewportRect& rect) {
+  rect_ = rect;
+  scale_ = std::max(ImGui::GetIO().DisplayFramebufferScale.x, 0.1f);
+  ImGui::SetNextWindowPos(ImVec2(rect.x, rect.y));
+  ImGui::SetNextWindowSize(ImVec2(rect.width, rect.height));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
+  ImGui::Begin("##viewport", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
+                                          ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
+  ImGui::PopStyleVar();
+  ImGui::InvisibleButton("##picture", ImVec2(rect.width, rect.height),
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  if (session.loaded()) {
+    mouse(session);
+    drawSelection(session);
+    drawCount(session, layers);
+    if (session.compare == Compare::split && session.shaded()) {
+      ImDrawList* draw = ImGui::GetWindowDrawList();
+      const float y = rect.y + rect.height - ImGui::GetFontSize() * 1.6f, x = rect.x + session.divider * rect.width;
+      Scene second;
+      applyMethod(session.second, second);
+      const std::string left = methodText(session.scene), right = methodText(second);
+      draw->AddText(ImVec2(x - ImGui::CalcTextSize(left.c_str()).x - 8.0f, y), IM_COL32(235, 225, 200, 255), left.c_str());
+      draw->AddText(ImVec2(x + 8.0f, y), IM_COL32(235, 225, 200, 255), right.c_str());
+    }
+  } else if (session.busy.empty()) {
+    const char* words = "Drag a strand file here, or choose one under File.\n.tfx  .hair  .ply  .gltf  .glb  .flk  .data  .bin  groom recipes";
+    const ImVec2 text = ImGui::CalcTextSize(words);
+    ImGui::SetCursorScreenPos(ImVec2(rect.x + 0.5f * (rect.width - text.x), rect.y + 0.45f * rect.height));
+    ImGui::TextDisabled("%s", words);
+  }
+  ImGui::End();
+}
+
+void Viewport::mouse(ViewSession& session) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool over = ImGui::IsItemHovered();
+  const float divider_x = rect_.x + session.divider * rect_.width;
+  const bool at_divider = session.compare == Compare::split && std::abs(io.MousePos.x - divider_x) < 6.0f;
+  if (drag_ == Drag::none && over) {
+    if (at_divider) {
+      ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    }
+    if (ImGui::IsMouseClicked(0)) {
+      drag_ = at_divider ? Drag::divider : io.KeyShift ? Drag::pan : Drag::turn;
+      moved_ = 0.0f;
+    } else if (ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)) {
+      drag_ = Drag::pan;
+      moved_ = 0.0f;
+    }
+    if (io.MouseWheel != 0.0f) {
+      session.approach_to.reset();
+      const glm::dvec2 from_middle(static_cast<double>(io.MousePos.x - rect_.x) - 0.5 * static_cast<double>(rect_.width),
+                                   static_cast<double>(io.MousePos.y - rect_.y) - 0.5 * static_cast<double>(rect_.height));
+      session.orbit.zoom(static_cast<double>(io.MouseWheel), from_middle, static_cast<double>(rect_.height), session.bounds.size());
+    }
+    if (ImGui::IsMouseDoubleClicked(0) && !at_divider) {
+      pick(session, true);
+    }
+  }
+  if (drag_ == Drag::none) {
+    return;
+  }
+  const double dx = static_cast<double>(io.MouseDelta.x), dy = static_cast<double>(io.MouseDelta.y);
+  moved_ += std::abs(io.MouseDelta.x) + std::abs(io.MouseDelta.y);
+  const bool click_yet = moved_ < kClickPx && drag_ != Drag::divider;
+  if (!click_yet && (dx != 0.0 || dy != 0.0)) {
+    session.approach_to.reset();
+    if (drag_ == Drag::turn) {
+      session.orbit.turn(dx, dy, static_cast<double>(rect_.height));
+    } else if (drag_ == Drag::pan) {
+      session.orbit.pan(dx, dy, static_cast<double>(rect_.height));
+    } else {
+      session.divider = std::clamp((io.MousePos.x - rect_.x) / rect_.width, 0.02f, 0.98f);
+    }
+  }
+  if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) {
+    if (click_yet && drag_ == Drag::turn) {
+      pick(session, false);
+    }
+    drag_ = Drag::none;
+  }
+}
+
+void Viewport::pick(ViewSession& session, bool go) {
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  uint32_t width = 0, height = 0;
+  size(width, height);
+  const glm::dvec2 pixel(static_cast<double>((at.x - rect_.x) * scale_), static_cast<double>((at.y - rect_.y) * scale_));
+  std::optional<StrandHit> best;
+  size_t best_asset = 0;
+  for (size_t a = 0; a < session.plain->assets.size(); ++a) {
+    const StagedAsset& asset = session.plain->assets[a];
+    FlkStrands strands = {};
+    flkAssetGetStrands(asset.opened.asset.get(), &strands);
+    const StrandView view{strands, asset.world_from_hair, cameraOf(session.orbit, session.bounds), static_cast<double>(width),
+                          static_cast<double>(height), static_cast<double>(asset.material.width_scale)};
+    const std::optional<StrandHit> hit = pickStrand(view, pixel);
+    if (hit && (!best || hit->depth_m < best->depth_m)) {
+      best = hit;
+      best_asset = a;
+    }
+  }
+  if (!best) {
+    session.selection = {};
+    session.picked.reset();
+    return;
+  }
+  session.selection = {best_asset, {best->strand}, "strand " + std::to_string(best->strand)};
+  session.picked = best;
+  session.say("strand " + groupedDigits(best->strand) + ", vertex " + std::to_string(best->vertex) + "; its numbers are under Strand");
+  if (go) {
+    session.requests.frame_selection = true;
+  }
+}
+
+void Viewport::drawSelection(const ViewSession& session) const {
+  const Selection& selection = session.selection;
+  if (selection.strands.empty() || selection.asset >= session.plain->assets.size()) {
+    return;
+  }
+  const StagedAsset& asset = session.plain->assets[selection.asset];
+  FlkStrands strands = {};
+  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  const StrandView view{strands, asset.world_from_hair, cameraOf(session.orbit, session.bounds), static_cast<double>(rect_.width),
+                        static_cast<double>(rect_.height), static_cast<double>(asset.material.width_scale)};
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->PushClipRect(ImVec2(rect_.x, rect_.y), ImVec2(rect_.x + rect_.width, rect_.y + rect_.height), true);
+  const size_t step = selection.strands.size() / kMostDrawnStrands + 1;  // an even share of very many
+  std::vector<ImVec2> points;
+  for (size_t i = 0; i < selection.strands.size(); i += step) {
+    if (selection.strands[i] >= strands.strand_count) {
+      continue;
+    }
+    for (const std::vector<glm::vec2>& line : projectStrand(view, selection.strands[i])) {
+      points.clear();
+      for (const glm::vec2& p : line) {
+        points.emplace_back(rect_.x + p.x, rect_.y + p.y);
+      }
+      draw->AddPolyline(points.data(), static_cast<int>(points.size()), IM_COL32(20, 10, 0, 160), 0, 4.0f);
+      draw->AddPolyline(points.data(), static_cast<int>(points.size()), IM_COL32(255, 190, 60, 255), 0, 1.5f);
+      draw->AddCircle(points.front(), 4.0f, IM_COL32(255, 230, 150, 255));  // the root; also of a strand that is a point
+    }
+  }
+  draw->PopClipRect();
+}
+
+void Viewport::drawCount(ViewSession& session, ViewLayers& layers) {
+  session.layers_under_mouse.reset();
+  if (session.scene.display != FLK_DISPLAY_LAYERS || session.scene.coloring != StrandColoring::none || !layers.drawn(kLayerFirst) ||
+      !ImGui::IsMouseHoveringRect(ImVec2(rect_.x, rect_.y), ImVec2(rect_.x + rect_.width, rect_.y + rect_.height)) || drag_ != Drag::none) {
+    counted_x_ = -1;
+    return;
+  }
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  const int x = static_cast<int>((at.x - rect_.x) * scale_), y = static_cast<int>((at.y - rect_.y) * scale_);
+  static uint64_t count = 0;
+  static bool known = false;
+  const std::string key = pictureKey(session, cameraOf(session.orbit, session.bounds));
+  if (x != counted_x_ || y != counted_y_ || key != counted_key_) {
+    counted_x_ = x;
+    counted_y_ = y;
+    counted_key_ = key;
+    hover_since_ = Clock::now();
+    known = false;
+  }
+  const bool full = layers.hairImage(kLayerFirst).width == session.scene.width;
+  if (!known && full && std::chrono::duration<double>(Clock::now() - hover_since_).count() > kCountAfter_s && x >= 0 && y >= 0 &&
+      static_cast<uint32_t>(x) < session.scene.width && static_cast<uint32_t>(y) < session.scene.height) {
+    count = layers.countFragments(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
+    known = true;
+  }
+  if (known) {
+    session.layers_under_mouse = count;
+    ImGui::SetTooltip("%s fragments in pixel %d, %d", groupedDigits(count).c_str(), x, y);
+  }
+}
+
+}  // namespace forelock::samples

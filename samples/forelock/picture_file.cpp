@@ -21,8 +21,12 @@ std::string numberedPath(const std::string& path, uint32_t number) {
 
 void savePicture(const std::string& path, const Image& image) {
   const fs::path target(path);
-  const fs::path temporary =
-      target.parent_path() / ("." + target.stem().string() + "." + std::to_string(getpid()) + target.extension().string());
+  fs::path name(".");
+  name += target.stem();
+  name += ".";
+  name += std::to_string(getpid());
+  name += target.extension();
+  const fs::path temporary = target.parent_path() / name;
   std::error_code error;
   try {
     writeImage(temporary.string(), image);

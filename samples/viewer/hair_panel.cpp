@@ -21,7 +21,7 @@ void materialWidgets(SceneAsset& wanted, const StagedAsset& asset) {
   }
   ui::color("Tip colour", m.tip_color, "What the colour turns into towards the tip, as far as the next slider says");
   ui::slide("Share of it", m.tip_blend, 0.0, 1.0, "How much of the tip colour there is at the tip. Above 0 each fragment takes four bytes more.");
-  if (asset.info.has_vertex_colors) {
+  if (asset.info.has_colors) {
     ui::checkbox("Leave out the asset's colours", wanted.ignore_colors, "Its vertex colours, and the memory that they take");
   }
   double width = asset.width_mm;

@@ -30,7 +30,7 @@ const std::map<std::string, int>& keyNames() {
       map[std::string(1, static_cast<char>('0' + i))] = GLFW_KEY_0 + i;
     }
     for (int i = 1; i <= 12; ++i) {
-      map["f" + std::to_string(i)] = GLFW_KEY_F1 + i - 1;
+      map[std::string("f") + std::to_string(i)] = GLFW_KEY_F1 + i - 1;
     }
     return map;
   }();
@@ -73,7 +73,7 @@ ViewScript::ViewScript(const std::string& path) : active_(true) {
   }
 }
 
-void ViewScript::fail(const std::string& text) { failures_.push_back("line " + std::to_string(line_) + ": " + text); }
+void ViewScript::fail(const std::string& text) { failures_.push_back(std::string("line ") + std::to_string(line_) + ": " + text); }
 
 std::optional<ScriptAction> ViewScript::takeAction() {
   if (actions_.empty()) {

@@ -48,6 +48,11 @@ std::string KeyReader::fullKey(const std::string& key) const { return path_.empt
 
 bool KeyReader::has(const char* key) const { return object_.contains(key); }
 
+bool KeyReader::isArray(const char* key) const {
+  const auto found = object_.find(key);
+  return found != object_.end() && found->is_array();
+}
+
 void KeyReader::require(const char* key) const {
   if (!has(key)) {
     throw RecipeError(fullKey(key) + " is missing");

@@ -19,6 +19,7 @@ class KeyReader {
   KeyReader(const nlohmann::json& object, std::string path);
 
   bool has(const char* key) const;
+  bool isArray(const char* key) const;
   void require(const char* key) const;
   void number(const char* key, double& value, double low, double high, const char* unit);
   void integer(const char* key, uint32_t& value, uint32_t low, uint32_t high);

@@ -15,10 +15,8 @@ namespace forelock::samples {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 void readMaterial(const nlohmann::json& json, const std::string& path, SceneAsset& asset) {
-  checkKeys(json, path, {"color", "opacity_root", "opacity_tip", "width_mm", "diffuse", "specular_r", "exponent_r",
+  checkKeys(json, path, {"color", "opacity_root", "opacity_tip", "width_mm", "width_scale", "diffuse", "specular_r", "exponent_r",
                          "specular_trt", "exponent_trt", "cuticle_tilt_deg", "shadow_opacity", "fibre_spacing_mm",
                          "tip_color", "tip_blend"});
   KeyReader reader(json, path);
@@ -32,6 +30,7 @@ void readMaterial(const nlohmann::json& json, const std::string& path, SceneAsse
   readReal(reader, "opacity_root", material.opacity_root, 0.0, 1.0, "");
   readReal(reader, "opacity_tip", material.opacity_tip, 0.0, 1.0, "");
   reader.number("width_mm", asset.width_mm, 0.0, 1e6, "mm");
+  readReal(reader, "width_scale", material.width_scale, 0.0, 1e6, "");
   readReal(reader, "diffuse", material.diffuse, 0.0, 1e3, "");
   readReal(reader, "specular_r", material.specular_r, 0.0, 1e3, "");
   readReal(reader, "exponent_r", material.exponent_r, 0.0, 1e6, "");
@@ -90,7 +89,7 @@ void readAsset(const nlohmann::json& json, const std::string& path, SceneAsset& 
 
 void readCamera(const nlohmann::json& json, SceneCamera& camera) {
   checkKeys(json, "camera", {"name", "azimuth", "elevation", "up", "vertical_fov", "margin", "eye", "target",
-                             "up_vector", "near", "far"});
+                             "up_vector", "near", "far", "view_height", "reversed_depth"});
   KeyReader reader(json, "camera");
   reader.text("name", camera.name);
   reader.number("azimuth", camera.azimuth_deg, -360.0, 360.0, "degrees");
@@ -99,17 +98,20 @@ void readCamera(const nlohmann::json& json, SceneCamera& camera) {
   reader.number("vertical_fov", camera.vertical_fov_deg, 1.0, 150.0, "degrees");
   reader.number("margin", camera.margin, 0.1, 100.0, "");
   if (!reader.has("eye")) {
-    refuseKeys(reader, {"target", "up_vector", "near", "far"}, "a camera with eye, which is missing");
+    refuseKeys(reader, {"target", "up_vector", "near", "far", "view_height", "reversed_depth"}, "a camera with eye, which is missing");
     return;
   }
   Camera placed;
   placed.up = camera.up == UpAxis::Z ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
   reader.require("target");
-  reader.vector("eye", placed.eye, -1e6, 1e6, "m");
-  reader.vector("target", placed.target, -1e6, 1e6, "m");
-  reader.vector("up_vector", placed.up, -1.0, 1.0, "");
-  reader.number("near", placed.near_m, 1e-6, 1e6, "m");
-  reader.number("far", placed.far_m, 1e-6, 1e7, "m");
+  reader.vector("eye", placed.eye, -1e12, 1e12, "m");
+  reader.vector("target", placed.target, -1e12, 1e12, "m");
+  reader.vector("up_vector", placed.up, -1e6, 1e6, "");
+  reader.number("near", placed.near_m, 1e-12, 1e13, "m");
+  reader.number("far", placed.far_m, 1e-12, 1e13, "m");
+  placed.orthographic = reader.has("view_height");
+  reader.number("view_height", placed.view_height, 1e-12, 1e12, "m");
+  readFlag(json, reader, "reversed_depth", placed.reversed_depth);
   placed.vertical_fov = camera.vertical_fov_deg * (3.14159265358979323846 / 180.0);
   if (placed.eye == placed.target) {
     throw SceneError("camera.target is the same as camera.eye, must differ");
@@ -182,8 +184,8 @@ SceneLens readLens(const nlohmann::json& json) {
 
 Scene readScene(const nlohmann::json& json) {
   checkKeys(json, "", {"assets", "light", "lights", "ambient", "sky", "ambient_sh", "exposure", "camera", "size",
-                       "background", "head", "method", "k", "k_sort", "tail", "low_shade", "core_taps", "payload", "capture", "show", "near_fade",
-                       "lens"});
+                       "background", "head", "method", "k", "k_sort", "tail", "low_shade", "core_taps", "payload", "capture", "show",
+                       "near_fade", "lens"});
   Scene scene;
   KeyReader top(json, "");
   const nlohmann::json& assets = top.array("assets", 63);
@@ -240,61 +242,6 @@ Scene readScene(const nlohmann::json& json) {
   return scene;
 }
 
-Json triple(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
-// Floats as the shortest decimals that give them back.
-double shortest(float value) {
-  char text[32];
-  for (int digits = 1; digits < 10; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, static_cast<double>(value));
-    if (std::strtof(text, nullptr) == value) {
-      break;
-    }
-  }
-  return std::strtod(text, nullptr);
-}
-
-Json assetJson(const SceneAsset& asset) {
-  const FlkMaterial& m = asset.material;
-  const FlkMaterial brown = pictureMaterial();
-  Json material;
-  if (asset.color_given || !std::equal(m.color, m.color + 3, brown.color)) {
-    material["color"] = hexColor({m.color[0], m.color[1], m.color[2]});
-  }
-  material["opacity_root"] = shortest(m.opacity_root);
-  material["opacity_tip"] = shortest(m.opacity_tip);
-  material["width_mm"] = asset.width_mm;
-  material["diffuse"] = shortest(m.diffuse);
-  material["specular_r"] = shortest(m.specular_r);
-  material["exponent_r"] = shortest(m.exponent_r);
-  material["specular_trt"] = shortest(m.specular_trt);
-  material["exponent_trt"] = shortest(m.exponent_trt);
-  material["cuticle_tilt_deg"] = static_cast<double>(m.cuticle_tilt) * (180.0 / 3.14159265358979323846);
-  material["shadow_opacity"] = shortest(m.shadow_opacity);
-  material["fibre_spacing_mm"] = static_cast<double>(m.fibre_spacing) * 1e3;
-  if (m.tip_blend > 0.0f) {
-    material["tip_color"] = hexColor({m.tip_color[0], m.tip_color[1], m.tip_color[2]});
-    material["tip_blend"] = shortest(m.tip_blend);
-  }
-  Json json = {{"source", asset.source}, {"position", triple(asset.position)}, {"turn", asset.turn_deg},
-               {"scale", asset.scale}};
-  if (asset.follow.count > 0) {
-    json["follow"] = {{"count", asset.follow.count}, {"radius_mm", asset.follow.radius_mm},
-                      {"spread_tip", asset.follow.spread_tip}, {"seed", asset.follow.seed}};
-  }
-  if (!asset.root_image.empty()) {
-    json["root_image"] = asset.root_image;
-  }
-  if (asset.points_per_strand > 0) {
-    json["points_per_strand"] = asset.points_per_strand;
-  }
-  if (asset.ignore_colors) {
-    json["ignore_colors"] = true;
-  }
-  json["material"] = std::move(material);
-  return json;
-}
-
 }  // namespace
 
 FlkMaterial pictureMaterial() {
@@ -349,80 +296,6 @@ Scene loadScene(const std::string& path) {
     }
   }
   return scene;
-}
-
-std::string writeScene(const Scene& scene) {
-  constexpr double radian = 180.0 / 3.14159265358979323846;
-  Json json;
-  json["assets"] = Json::array();
-  for (const SceneAsset& asset : scene.assets) {
-    json["assets"].push_back(assetJson(asset));
-  }
-  if (scene.lights.size() == 1) {
-    json["light"] = lightJson(scene.lights[0]);
-  } else {
-    json["lights"] = Json::array();
-    for (const SceneLight& light : scene.lights) {
-      json["lights"].push_back(lightJson(light));
-    }
-  }
-  json["ambient"] = triple(scene.ambient);
-  if (scene.sky) {
-    json["sky"] = skyJson(*scene.sky);
-  }
-  if (scene.ambient_sh) {
-    for (const glm::dvec3& coefficient : *scene.ambient_sh) {
-      json["ambient_sh"].push_back(triple(coefficient));
-    }
-  }
-  json["exposure"] = scene.exposure;
-  const SceneCamera& camera = scene.camera;
-  json["camera"] = {{"azimuth", camera.azimuth_deg}, {"elevation", camera.elevation_deg},
-                    {"up", camera.up == UpAxis::Z ? "z" : "y"}, {"vertical_fov", camera.vertical_fov_deg},
-                    {"margin", camera.margin}};
-  if (!camera.name.empty()) {
-    json["camera"]["name"] = camera.name;
-  }
-  if (camera.placed) {
-    json["camera"]["vertical_fov"] = camera.placed->vertical_fov * radian;
-    json["camera"]["eye"] = triple(camera.placed->eye);
-    json["camera"]["target"] = triple(camera.placed->target);
-    json["camera"]["up_vector"] = triple(camera.placed->up);
-    json["camera"]["near"] = camera.placed->near_m;
-    json["camera"]["far"] = camera.placed->far_m;
-  }
-  if (scene.width > 0) {
-    json["size"] = {scene.width, scene.height};
-  }
-  if (scene.background) {
-    json["background"] = hexColor(*scene.background);
-  }
-  if (scene.head) {
-    json["head"] = *scene.head;
-  }
-  json["method"] = methodNames()[scene.method];
-  if (scene.k != 0) {
-    json["k"] = scene.k == FLK_K_NONE ? 0 : scene.k;
-  }
-  if (scene.k_sort != 0) {
-    json["k_sort"] = scene.k_sort;
-  }
-  json["payload"] = payloadNames()[scene.payload];
-  json["show"] = shownName(scene);
-  json["tail"] = tailNames()[scene.tail];
-  json["low_shade"] = lowShadeNames()[scene.low_shade];
-  if (scene.core_taps != 0) {
-    json["core_taps"] = scene.core_taps;
-  }
-  json["capture"] = captureNames()[scene.capture];
-  if (scene.near_fade) {
-    json["near_fade"] = {{"start_m", scene.near_fade->start_m}, {"end_m", scene.near_fade->end_m}};
-  }
-  if (scene.lens) {
-    json["lens"] = {{"center", {scene.lens->center[0], scene.lens->center[1]}}, {"radius", scene.lens->radius},
-                    {"feather", scene.lens->feather}, {"inside", scene.lens->inside}};
-  }
-  return json.dump(2) + "\n";
 }
 
 const std::vector<std::string>& methodNames() {

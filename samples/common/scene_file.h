@@ -27,12 +27,13 @@ struct SceneFollow {
   double radius_mm = 1.0;  // where a unit is a metre
   double spread_tip = 1.0;
   uint32_t seed = 1;
+  bool operator==(const SceneFollow&) const = default;
 };
 
 struct SceneAsset {
   std::string source;  // as on the command line: a file or groom:NAME
   FlkMaterial material = pictureMaterial();
-  bool color_given = false;  // material.color is meant: else an asset with colours of its own has white
+  bool color_given = false;  // material.color is meant: else it is pictureMaterial's, and an asset with colours of its own has white
   double width_mm = 0.0;  // diameter of the widest vertex where a unit is a metre; 0: as the asset has it
   glm::dvec3 position{0.0, 0.0, 0.0};  // (m)
   double turn_deg = 0.0;               // about the up axis
@@ -96,8 +97,12 @@ Scene parseScene(const std::string& text);
 // Throws SceneError, also when the file cannot be read. Relative paths of sources start at the scene's folder.
 Scene loadScene(const std::string& path);
 
-// A scene that parseScene reads back as it was.
-std::string writeScene(const Scene& scene);
+// A scene that parseScene reads back as it was, numbers to the last bit; of a light what its kind has, of a camera that is placed the
+// field of view of its place. Throws SceneError where a name is not UTF-8.
+std::string writeScene(const Scene& scene, bool one_line = false);
+
+// --scene takes a file, or a scene itself: sources of such a one start at the working folder.
+inline bool isInlineScene(const std::string& argument) { return !argument.empty() && argument[0] == '{'; }
 
 // Names as the command and scene files spell them; in the order of the FLK_... values.
 const std::vector<std::string>& methodNames();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace forelock::samples {
 
@@ -62,6 +63,10 @@ void readFlag(const nlohmann::json& object, const KeyReader& reader, const char*
 }
 
 void readColor(KeyReader& reader, const char* key, glm::dvec3& value) {
+  if (reader.isArray(key)) {
+    reader.vector(key, value, 0.0, 1.0, "(linear)");
+    return;
+  }
   std::string text;
   reader.text(key, text);
   if (reader.has(key) && !parseHexColor(text, value)) {
@@ -97,6 +102,36 @@ std::string hexColor(const glm::dvec3& linear) {
     text += pair;
   }
   return text;
+}
+
+double shortest(float value) {
+  char text[32];
+  for (int digits = 1; digits < 10; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, static_cast<double>(value));
+    if (std::strtof(text, nullptr) == value) {
+      break;
+    }
+  }
+  return std::strtod(text, nullptr);
+}
+
+nlohmann::ordered_json colorJson(const glm::dvec3& linear) {
+  glm::dvec3 back;
+  const std::string text = hexColor(linear);
+  if (parseHexColor(text, back) && back == linear) {
+    return text;
+  }
+  return {linear.x, linear.y, linear.z};
+}
+
+nlohmann::ordered_json colorJson(const float linear[3]) {
+  glm::dvec3 back;
+  const std::string text = hexColor({linear[0], linear[1], linear[2]});
+  const auto isSame = [&](int i) { return static_cast<float>(back[i]) == linear[i]; };
+  if (parseHexColor(text, back) && isSame(0) && isSame(1) && isSame(2)) {
+    return text;
+  }
+  return {shortest(linear[0]), shortest(linear[1]), shortest(linear[2])};
 }
 
 }  // namespace forelock::samples

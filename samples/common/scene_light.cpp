@@ -146,7 +146,7 @@ nlohmann::ordered_json lightJson(const SceneLight& light) {
     json["inner_angle"] = light.inner_angle_deg;
     json["outer_angle"] = light.outer_angle_deg;
   }
-  json["color"] = hexColor(light.color);
+  json["color"] = colorJson(light.color);
   json["intensity"] = light.intensity;
   json["shadow"] = light.shadow;
   json["shadow_size"] = light.shadow_size;
@@ -154,7 +154,7 @@ nlohmann::ordered_json lightJson(const SceneLight& light) {
 }
 
 nlohmann::ordered_json skyJson(const SceneSky& sky) {
-  return {{"top", hexColor(sky.top)}, {"horizon", hexColor(sky.horizon)}, {"bottom", hexColor(sky.bottom)},
+  return {{"top", colorJson(sky.top)}, {"horizon", colorJson(sky.horizon)}, {"bottom", colorJson(sky.bottom)},
           {"intensity", sky.intensity}};
 }
 

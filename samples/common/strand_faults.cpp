@@ -106,10 +106,14 @@ StrandFaults findStrandFaults(const FlkStrands& strands) {
   return faults;
 }
 
-std::string describeFaults(const StrandFaults& faults) {
+const char* faultWord(StrandFault kind) {
   static constexpr const char* words[kStrandFaultCount] = {
       "shorter than 1/10,000 of the median", "with equal consecutive vertices", "with a turn of more than 120 degrees",
       "the same as an earlier one",          "of width 0",                      "with a root UV outside 0..1"};
+  return words[kind];
+}
+
+std::string describeFaults(const StrandFaults& faults) {
   if (faults.strands == 0) {
     return "none";
   }
@@ -117,7 +121,7 @@ std::string describeFaults(const StrandFaults& faults) {
   const char* before = ": ";
   for (uint32_t kind = 0; kind < kStrandFaultCount; ++kind) {
     if (faults.counts[kind] > 0) {
-      text += before + std::to_string(faults.counts[kind]) + " " + words[kind];
+      text += before + std::to_string(faults.counts[kind]) + " " + faultWord(static_cast<StrandFault>(kind));
       before = ", ";
     }
   }

@@ -28,6 +28,9 @@ struct StrandFaults {
 
 StrandFaults findStrandFaults(const FlkStrands& strands);
 
+// "shorter than 1/10,000 of the median": goes on after "a strand".
+const char* faultWord(StrandFault kind);
+
 // "3 strands: 2 shorter than 1/10,000 of the median, 1 with equal consecutive vertices"; "none" where there are none.
 std::string describeFaults(const StrandFaults& faults);
 

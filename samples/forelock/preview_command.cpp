@@ -29,7 +29,8 @@ constexpr const char* kExamples =
     "  forelock preview assets/hair -o pictures --recursive\n"
     "  forelock preview a.tfx b.hair groom:curly -o pictures --thumbnail 256\n"
     "A scene with lights, a sky, a lens, images of the scalp (docs/scene.md):\n"
-    "  forelock preview --scene scene.json -o scene.png --background 202428\n";
+    "  forelock preview --scene scene.json -o scene.png --background 202428\n"
+    "  forelock preview --scene '{\"assets\": [{\"source\": \"pony.tfx\"}], \"size\": [800, 600]}' -o pony.png\n";
 
 bool isFolder(const std::string& path) {
   std::error_code error;

@@ -59,7 +59,7 @@ void addSource(const std::string& source, std::vector<std::string>& files) {
 
 std::vector<std::string> filesOf(const PreviewArguments& arguments, const Scene& scene) {
   std::vector<std::string> files;
-  if (!arguments.scene.empty()) {
+  if (!arguments.scene.empty() && !isInlineScene(arguments.scene)) {
     files.push_back(arguments.scene);
   }
   for (const SceneAsset& asset : scene.assets) {
@@ -119,6 +119,9 @@ int runPreviewWatch(const CLI::App& command, const PreviewArguments& arguments, 
       } catch (const UsageError&) {
         throw;
       } catch (const std::exception& error) {
+        if (files.empty() && isInlineScene(arguments.scene)) {
+          throw;  // it will not change
+        }
         std::fprintf(stderr, "forelock: %s\n", error.what());
         std::printf(first ? "nothing drawn yet, watching; Ctrl-C ends\n" : "the picture stays as it was\n");
         if (files.empty()) {  // the scene itself cannot be read

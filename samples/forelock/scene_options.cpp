@@ -61,7 +61,7 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments, std::vector<s
   } else {
     command.add_option("ASSET", arguments.asset, "A strand file, a recipe or groom:NAME; not needed with --scene");
   }
-  command.add_option("--scene", arguments.scene, "A scene file (docs/scene.md); other options change what it says")
+  command.add_option("--scene", arguments.scene, "A scene file (docs/scene.md), or '{...}', a scene itself; other options change what it says")
       ->type_name("FILE.json");
   command.add_option("--size", arguments.size, "Of the picture in pixels [1024x1024, or the stored camera's]")
       ->type_name("WxH");
@@ -139,10 +139,11 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments, std::vector<s
 Scene makeScene(const CLI::App& command, const SceneArguments& arguments) {
   Scene scene;
   if (!arguments.scene.empty()) {
+    const bool is_inline = isInlineScene(arguments.scene);
     try {
-      scene = loadScene(arguments.scene);
+      scene = is_inline ? parseScene(arguments.scene) : loadScene(arguments.scene);
     } catch (const SceneError& error) {
-      throw AssetError(FLK_ERROR_MALFORMED, arguments.scene + ": " + error.what());
+      throw AssetError(FLK_ERROR_MALFORMED, (is_inline ? "--scene" : arguments.scene) + ": " + error.what());
     }
   }
   if (!arguments.asset.empty()) {

@@ -160,3 +160,24 @@ TEST(PlanCommand, TextNamesPassesAndReasons) {
     EXPECT_NE(run.out.find(part), std::string::npos) << part << " is not in\n" << run.out;
   }
 }
+
+TEST(PlanCommand, AnInlineSceneIsAScene) {
+  const std::string source = "\"assets\": [{\"source\": \"" + smallRecipe() + "\"}], \"size\": [60, 40], \"method\": \"exact\"";
+  const nlohmann::json of_text = planOf("--scene '{" + source + "}'"), of_file = planOf("--scene " + writeScratch("plan.json", "{" + source + "}"));
+  EXPECT_EQ(of_text.at("size"), nlohmann::json({60, 40}));
+  EXPECT_EQ(of_text, of_file);
+  EXPECT_EQ(planOf(smallRecipe() + " --scene '{}' --size 60x40 --method exact"), of_file);
+  const auto wrong = runCommand("plan --scene '{\"lamp\": 1}'");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_EQ(wrong.err.rfind("forelock: --scene: lamp is no key of a scene", 0), 0u) << wrong.err;
+  const auto cut = runCommand("plan --scene '{\"size\": '");
+  EXPECT_EQ(cut.status, 1);
+  EXPECT_EQ(cut.err.rfind("forelock: --scene: not valid JSON (line 1", 0), 0u) << cut.err;
+}
+
+TEST(PlanCommand, SourcesOfAnInlineSceneStartAtTheWorkingFolder) {
+  const std::filesystem::path recipe = smallRecipe();
+  const std::string name = recipe.filename().string(), folder = recipe.parent_path().string();
+  const auto run = runCommand("plan --scene '{\"assets\": [{\"source\": \"" + name + "\"}]}'", "cd \"" + folder + "\" && ");
+  EXPECT_EQ(run.status, 0) << run.err;
+}

@@ -95,3 +95,19 @@ TEST(PreviewCommand, APictureThatCannotBeWrittenIsOne) {
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.err.rfind("forelock: /nonexistent/x.png: ", 0), 0u) << run.err;
 }
+
+TEST(PreviewCommand, AnInlineSceneIsTheSamePicture) {
+  const std::string camera = R"("camera": {"eye": [0.3, 0.1, 0.6], "target": [0, 0, 0], "near": 0.01, "far": 4)";
+  const std::string rest = R"(, "size": [64, 48], "exposure": 3, "background": [0.01, 0.02, 0.03], "head": false, "assets": [{"source": ")" +
+                           smallRecipe() + R"(", "material": {"color": [0.3, 0.2, 0.1]}}]})";
+  std::string pictures[4];
+  const char* kinds[4] = {"}", R"(, "reversed_depth": true})", R"(, "view_height": 0.4})", R"(, "view_height": 0.4, "reversed_depth": true})"};
+  for (int i = 0; i < 4; ++i) {
+    const std::string scene = "{" + camera + kinds[i] + rest;
+    EXPECT_GT(previewOf("text.png", "--scene '" + scene + "'").at("hair_pixels"), 100) << kinds[i];
+    previewOf("file.png", "--scene " + writeScratch("scene.json", scene));
+    pictures[i] = readAll(scratchFolder() / "text.png");
+    EXPECT_EQ(pictures[i], readAll(scratchFolder() / "file.png"));
+  }
+  EXPECT_NE(pictures[0], pictures[2]) << "in perspective and not";
+}

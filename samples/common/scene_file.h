@@ -69,7 +69,7 @@ struct SceneCamera {
 
 struct Scene {
   std::vector<SceneAsset> assets;
-  std::vector<SceneLight> lights{SceneLight{}};
+  std::vector<SceneLight> lights = std::vector<SceneLight>(1);
   glm::dvec3 ambient{0.06, 0.065, 0.075};  // radiance from everywhere, times the exposure
   std::optional<SceneSky> sky;             // added to it, at most one of the two
   std::optional<Harmonics> ambient_sh;     // (world)

@@ -71,7 +71,7 @@ std::optional<std::string> FileBrowser::draw() {
     open_ = false;
     return chosen;
   }
-  const ui::Scope scope("File");
+  std::optional<ui::Scope> scope(std::in_place, "File");
   const auto finish = [&](const std::string& path) {
     chosen = path;
     open_ = false;
@@ -160,6 +160,7 @@ std::optional<std::string> FileBrowser::draw() {
     open_ = false;
     ImGui::CloseCurrentPopup();
   }
+  scope.reset();
   ImGui::EndPopup();
   return chosen;
 }

@@ -63,10 +63,7 @@ bool lightWidgets(SceneLight& light) {
 }  // namespace
 
 void lightPanel(ViewSession& session) {
-  const ui::Section section("Light", true, "Lights, what is around, exposure");
-  if (!section) {
-    return;
-  }
+  const ui::Scope scope("Lights");
   Scene& scene = session.scene;
   if (ui::slide("Exposure", scene.exposure, 1e-2, 1e3, "What all light is multiplied by", "%.4g", true)) {
     session.exposure_chosen = false;
@@ -77,7 +74,7 @@ void lightPanel(ViewSession& session) {
     const bool open = ImGui::TreeNodeEx(name.c_str(), i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     ui::noteItem(name, open);
     if (open) {
-      const ui::Scope scope(name);
+      const ui::Scope inside(name);
       if (!lightWidgets(scene.lights[i])) {
         scene.lights.erase(scene.lights.begin() + static_cast<std::ptrdiff_t>(i));
       }

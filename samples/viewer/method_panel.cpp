@@ -68,7 +68,7 @@ void methodPanel(ViewSession& session, bool graphics) {
 }
 
 void comparePanel(ViewSession& session) {
-  const ui::Section section("Compare", false, "Two methods beside each other, their difference, and the error against exact");
+  const ui::Section section("Compare, error", false, "Two methods beside each other, their difference, and the error against exact");
   if (!section) {
     return;
   }

@@ -22,8 +22,9 @@ ImVec4 severityColor(uint32_t severity) {
 }  // namespace
 
 void findingsPanel(ViewSession& session) {
-  const ui::Section section("Findings", false, "What is wrong with the assets, or unusual; as `forelock inspect` tells it");
-  if (!section || !session.plain) {
+  const ui::Scope panel("Findings");
+  if (!session.plain) {
+    ui::faintText("What is wrong with an asset, or unusual, is told here.");
     return;
   }
   if (session.findings.empty()) {
@@ -65,8 +66,9 @@ void findingsPanel(ViewSession& session) {
 }
 
 void strandPanel(ViewSession& session) {
-  const ui::Section section("Strand", false, "The strand that was clicked in the picture, or chosen by its number");
-  if (!section || !session.plain) {
+  const ui::Scope panel("Strand");
+  if (!session.plain) {
+    ui::faintText("Click a strand in the picture to see what it is like.");
     return;
   }
   const size_t a = std::min(session.selection.asset, session.plain->assets.size() - 1);

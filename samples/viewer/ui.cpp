@@ -24,6 +24,12 @@ float encode(float linear) {
 
 float decode(float coded) { return coded <= 0.04045f ? coded / 12.92f : std::pow((coded + 0.055f) / 1.055f, 2.4f); }
 
+// The prefix without its last part.
+void shorten() {
+  const size_t cut = notes.prefix.size() < 2 ? std::string::npos : notes.prefix.rfind('/', notes.prefix.size() - 2);
+  notes.prefix.resize(cut == std::string::npos ? 0 : cut + 1);
+}
+
 // Labels stand left of their widgets' end, so that long ones are not cut.
 void labelWidth() { ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f); }
 
@@ -67,7 +73,7 @@ Section::~Section() {
     ImGui::Spacing();
   }
   ImGui::PopID();
-  notes.prefix.resize(notes.prefix.rfind('/', notes.prefix.size() - 2) + 1);
+  shorten();
 }
 
 Scope::Scope(const std::string& name) {
@@ -77,8 +83,7 @@ Scope::Scope(const std::string& name) {
 
 Scope::~Scope() {
   ImGui::PopID();
-  const size_t cut = notes.prefix.size() < 2 ? std::string::npos : notes.prefix.rfind('/', notes.prefix.size() - 2);
-  notes.prefix.resize(cut == std::string::npos ? 0 : cut + 1);
+  shorten();
 }
 
 void tip(const char* words) {
@@ -124,11 +129,13 @@ bool choose(const char* label, uint32_t& index, const std::vector<std::string>& 
   noteItem(label, open);
   bool changed = false;
   if (open) {
-    const Scope scope(std::string(label, std::string(label).find("##")));
-    for (uint32_t i = 0; i < names.size(); ++i) {
-      if (selectable(names[i], i == index)) {
-        changed = i != index;
-        index = i;
+    {
+      const Scope scope(std::string(label).substr(0, std::string(label).find("##")));
+      for (uint32_t i = 0; i < names.size(); ++i) {
+        if (selectable(names[i], i == index)) {
+          changed = i != index;
+          index = i;
+        }
       }
     }
     ImGui::EndCombo();

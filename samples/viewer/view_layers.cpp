@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint64_t kPoolBudget = uint64_t{1} << 30;  // as `forelock preview`: the same picture where lists are long
 constexpr uint32_t kSoundingSize = 320;              // likewise
-constexpr uint32_t kCheapShadow = 512, kCheapTaps = 4;
+constexpr uint32_t kCheapShadow = 512;  // taps and methods stay: others are other pipelines, which take time to compile
 
 }  // namespace
 
@@ -154,9 +154,6 @@ void ViewLayers::plan(const LayerRequest& request) {
     ensureImage(slot.hair, request.width, request.height);
     FlkFrame frame = staged.frame;
     applyMethod(*request.methods[i], frame);
-    if (request.cheap && frame.core_taps == 0) {
-      frame.core_taps = kCheapTaps;
-    }
     frame.count_work = request.count_work ? 1 : 0;
     frame.frame_number = slot.frame + 1;
     frame.completed_frame = slot.frame;

@@ -42,7 +42,7 @@ struct LayerRequest {
   double exposure = 1.0;
   uint32_t width = 1, height = 1;
   std::array<std::optional<MethodChoice>, kLayerCount> methods;  // none: the layer is not drawn
-  bool cheap = false;       // fewer strands where there are such, small shadow maps, few taps: while moving
+  bool cheap = false;       // small shadow maps: while moving
   bool few_strands = false;
   bool count_work = false;
 };

@@ -205,10 +205,12 @@ void alertWindow(ViewSession& session) {
   if (ImGui::BeginPopupModal("Forelock##alert", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
     ui::text(session.alert);
     ImGui::Spacing();
-    const ui::Scope scope("Alert");
-    if (ui::button("Close", "") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
-      session.alert.clear();
-      ImGui::CloseCurrentPopup();
+    {
+      const ui::Scope scope("Alert");
+      if (ui::button("Close", "") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+        session.alert.clear();
+        ImGui::CloseCurrentPopup();
+      }
     }
     ImGui::EndPopup();
   }

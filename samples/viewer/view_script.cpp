@@ -210,8 +210,14 @@ bool ViewScript::place(Input& input) {
   }
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const float x = found->low.x + std::min(0.5f * (found->high.x - found->low.x), 20.0f), y = 0.5f * (found->low.y + found->high.y);
+  const bool rests = std::abs(x - seen_x_) < 0.5f && std::abs(y - seen_y_) < 0.5f;  // what is above it may just have opened
+  seen_x_ = x;
+  seen_y_ = y;
   if (tries_ == 0 || x < 0.0f || y < 24.0f || x >= whole.x || y >= whole.y - 24.0f) {
     ui::reveal(input.find);
+    return false;
+  }
+  if (tries_ < 3 || !rests) {
     return false;
   }
   input.x = x;
@@ -243,7 +249,7 @@ void ViewScript::drive(bool settled) {
         pending_.clear();
         clickAt(at.x, at.y);
         pending_.insert(pending_.end(), after.begin(), after.end());
-      } else if (++tries_ > (walking_ ? 4 : kMostTries)) {
+      } else if (++tries_ > (walking_ ? 10 : kMostTries)) {
         if (!walking_) {
           fail("nothing is called " + next.find);
         }

@@ -64,6 +64,7 @@ private:
   std::string walk_only_;
   Input held_;
   int key_down_ = 0, tries_ = 0;
+  float seen_x_ = 0.0f, seen_y_ = 0.0f;
   uint32_t clicks_ = 0;
   int line_ = 0;
 };

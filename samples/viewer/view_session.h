@@ -86,6 +86,7 @@ struct ViewSession {
   std::string device;
   Requests requests;
   bool show_help = false, show_about = false;
+  bool show_strand = false;  // its panel to the front
 
   // A file dialogue.
   enum class Browse { none, open, add, mesh, scene, save_scene, save_picture } browse = Browse::none;

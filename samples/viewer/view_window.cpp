@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 extern "C" {
@@ -23,6 +24,7 @@ namespace forelock::samples {
 
 namespace {
 
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";  // of fonts-dejavu-core; else Dear ImGui's own
 constexpr uint64_t kAcquireNs = 500'000'000;  // a hidden window may never give an image: look for input again after this
 
 std::string glfwReason() {
@@ -382,9 +384,14 @@ void ViewScreen::setUiScale(float scale) {
   styleUi(scale);
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   fonts.Clear();
-  ImFontConfig config;
-  config.SizePixels = std::max(8.0f, 13.0f * scale);  // the built-in font: it is always there
-  fonts.AddFontDefault(&config);
+  std::error_code error;
+  if (std::filesystem::is_regular_file(kFont, error)) {
+    fonts.AddFontFromFileTTF(kFont, std::max(8.0f, std::round(14.0f * scale)));
+  } else {
+    ImFontConfig config;
+    config.SizePixels = std::max(8.0f, std::round(13.0f * scale));
+    fonts.AddFontDefault(&config);
+  }
   ImGui_ImplVulkan_DestroyFontUploadObjects();
   uploadFonts();
 }

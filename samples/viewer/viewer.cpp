@@ -583,10 +583,25 @@ void Viewer::drawUi() {
   };
   if (left > 0.0f) {
     side("##left", 0.0f, [&] {
-      hairPanel(session_);
-      lightPanel(session_);
-      findingsPanel(session_);
-      strandPanel(session_);
+      if (!ImGui::BeginTabBar("##tabs")) {
+        return;
+      }
+      const auto tab = [&](const char* name, bool wanted, auto&& body) {
+        const bool open = ImGui::BeginTabItem(name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
+        ui::noteItem(name, open);
+        if (open) {
+          ImGui::BeginChild("##tab");
+          body();
+          ImGui::EndChild();
+          ImGui::EndTabItem();
+        }
+      };
+      const bool picked = std::exchange(session_.show_strand, false);
+      tab("Hair", false, [&] { hairPanel(session_); });
+      tab("Light", false, [&] { lightPanel(session_); });
+      tab("Findings", false, [&] { findingsPanel(session_); });
+      tab("Strand", picked, [&] { strandPanel(session_); });
+      ImGui::EndTabBar();
     });
   }
   if (right > 0.0f) {

@@ -141,6 +141,7 @@ void Viewport::pick(ViewSession& session, bool go) {
   }
   session.selection = {best_asset, {best->strand}, "strand " + std::to_string(best->strand)};
   session.picked = best;
+  session.show_strand = true;
   session.say("strand " + groupedDigits(best->strand) + ", vertex " + std::to_string(best->vertex) + "; its numbers are under Strand");
   if (go) {
     session.requests.frame_selection = true;

@@ -28,11 +28,12 @@ OpaqueMesh bustMesh();
 
 // What one mesh file may hold.
 struct MeshLimits {
-  uint32_t vertices = 1u << 26, triangles = 1u << 26;
+  uint32_t vertices = 1u << 24, triangles = 1u << 25;
 };
 
 // The triangles (TRIANGLES, TRIANGLE_STRIP, TRIANGLE_FAN) of all meshes of the default scene of a glTF or GLB file, placed by their nodes.
-// Normals are made where a primitive has none; the first material's base colour is the albedo. Throws AssetError.
+// Where a primitive has no normals they are made, smooth over the vertices that triangles share. The albedo is the first material's base
+// colour factor, if it says one. Throws AssetError; what it allocates is proven against the file's bytes, or within the limits.
 OpaqueMesh readMesh(const std::string& path, const ProgressFunction& progress = {}, const MeshLimits& limits = {});
 
 }  // namespace forelock::samples

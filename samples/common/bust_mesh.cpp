@@ -5,20 +5,64 @@
 #include "parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace forelock::samples {
 namespace {
 
-constexpr float kCell = 0.0025f;  // (m): chords of the smallest radius, 4.5 mm of the lips, are 0.17 mm off at most
-constexpr int kBlock = 4;         // cells a side that are looked at together
-constexpr int kX = 104, kY = 224, kZ = 112;  // cells, multiples of kBlock, of the half with x >= 0; the other half is its mirror
-const glm::vec3 kCorner(0.0f, -0.442f, -0.152f);
+constexpr int kBlock = 4;  // cells a side that are looked at together
 constexpr float kUnknown = 1e30f;
+
+// Cells along an axis: finer where eyes, nose and lips are, whose ends have radii of about a millimetre.
+struct Stretch {
+  float from;  // (m)
+  int cells;   // a multiple of kBlock
+};
+constexpr Stretch kAlongX[] = {{0.0f, 24}, {0.030f, 60}, {0.260f, 0}};  // the half with x >= 0; the other half is its mirror
+constexpr Stretch kAlongY[] = {{-0.442f, 88}, {-0.088f, 72}, {0.020f, 32}, {0.118f, 0}};
+constexpr Stretch kAlongZ[] = {{-0.152f, 64}, {0.056f, 40}, {0.116f, 4}, {0.128f, 0}};
+
+template <size_t N>
+constexpr int cellsOf(const Stretch (&along)[N]) {
+  int cells = 0;
+  for (const Stretch& stretch : along) {
+    cells += stretch.cells;
+  }
+  return cells;
+}
+constexpr int kX = cellsOf(kAlongX), kY = cellsOf(kAlongY), kZ = cellsOf(kAlongZ);
+
+struct Grid {
+  std::array<float, kX + 1> x;
+  std::array<float, kY + 1> y;
+  std::array<float, kZ + 1> z;
+};
+
+template <size_t N, size_t M>
+constexpr void place(const Stretch (&along)[N], std::array<float, M>& points) {
+  size_t at = 0;
+  for (size_t i = 0; i + 1 < N; ++i) {
+    for (int cell = 0; cell < along[i].cells; ++cell) {
+      points[at++] = along[i].from + (along[i + 1].from - along[i].from) * static_cast<float>(cell) / static_cast<float>(along[i].cells);
+    }
+  }
+  points[at] = along[N - 1].from;
+}
+
+constexpr Grid kGrid = [] {
+  Grid grid{};
+  place(kAlongX, grid.x);
+  place(kAlongY, grid.y);
+  place(kAlongZ, grid.z);
+  return grid;
+}();
 
 size_t pointAt(int x, int y, int z) { return (static_cast<size_t>(z) * (kY + 1) + static_cast<size_t>(y)) * (kX + 1) + static_cast<size_t>(x); }
 size_t cellAt(int x, int y, int z) { return (static_cast<size_t>(z) * kY + static_cast<size_t>(y)) * kX + static_cast<size_t>(x); }
-glm::vec3 placeOf(int x, int y, int z) { return kCorner + kCell * glm::vec3(x, y, z); }
+glm::vec3 placeOf(int x, int y, int z) {
+  return {kGrid.x[static_cast<size_t>(x)], kGrid.y[static_cast<size_t>(y)], kGrid.z[static_cast<size_t>(z)]};
+}
 
 struct Vertex {
   glm::vec3 position, normal;
@@ -46,18 +90,19 @@ void sampleField(int slab, std::vector<float>& values) {
     }
   };
   // The field may overestimate where ellipsoids are slender: 0.7 of it is trusted.
-  const auto mayHold = [](const glm::vec3& low, float side) {
-    return 0.7f * std::fabs(shape::bust<float>(low + 0.5f * side)) <= 0.8661f * side;
+  const auto mayHold = [](int x, int y, int z, int size) {
+    const glm::vec3 low = placeOf(x, y, z), high = placeOf(x + size, y + size, z + size);
+    return 0.7f * std::fabs(shape::bust<float>(0.5f * (low + high))) <= 0.5f * glm::length(high - low);
   };
   for (int y = 0; y < kY; y += kBlock) {
     for (int x = 0; x < kX; x += kBlock) {
-      if (!mayHold(placeOf(x, y, z0), kBlock * kCell)) {
+      if (!mayHold(x, y, z0, kBlock)) {
         continue;
       }
       for (int part = 0; part < 8; ++part) {
         const int half = kBlock / 2;
         const int px = x + half * (part & 1), py = y + half * (part >> 1 & 1), pz = z0 + half * (part >> 2);
-        if (mayHold(placeOf(px, py, pz), half * kCell)) {
+        if (mayHold(px, py, pz, half)) {
           sample(px, py, pz, half);
         }
       }
@@ -118,7 +163,8 @@ void findVertices(int index, Slab& slab) {
         }
         const int z_all = index * kBlock + z;
         slab.cells.push_back(static_cast<uint32_t>(cellAt(x, y, z_all)));
-        slab.vertices.push_back(settle(placeOf(x, y, z_all) + kCell * (sum / crossings)));
+        const glm::vec3 low = placeOf(x, y, z_all), size = placeOf(x + 1, y + 1, z_all + 1) - low;
+        slab.vertices.push_back(settle(low + size * (sum / crossings)));
       }
     }
   }

@@ -22,8 +22,8 @@ struct OpaqueMesh {
   size_t vertices() const { return positions.size() / 3; }
 };
 
-// The surface of bust_shape.h, closed: vertices lie on it to a hundredth of a millimetre, normals are its own. The same
-// bits whatever the number of threads.
+// The surface of bust_shape.h, closed: vertices lie on it to a tenth of a millimetre, normals are its own, openness is how
+// far the surface falls away around. The same bits whatever the number of threads.
 OpaqueMesh bustMesh();
 
 // What one mesh file may hold.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "bust.h"
 #include "stage.h"
 
 #include <glm/common.hpp>

@@ -141,6 +141,7 @@ GltfDocument readGltfDocument(std::vector<unsigned char> bytes, const std::files
 
   GltfDocument document;
   document.deforms = checked.deforms;
+  document.base_color = checked.base_color;
   document.bytes_unused = chunks.bytes_unused;
   std::string error, warning;
   if (!parser.LoadASCIIFromString(&document.model, &error, &warning, text.c_str(), static_cast<unsigned>(text.size()), "")) {

@@ -4,7 +4,9 @@
 
 #include "tinygltf_import.h"
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@ namespace forelock::samples {
 struct GltfDocument {
   tinygltf::Model model;  // without images, materials, animations and skins; its buffers are as long as byteLength says
   bool deforms = false;   // there are skins or morph targets
+  std::optional<std::array<float, 3>> base_color;  // of the first material (linear)
   uint64_t bytes_unused = 0;  // after what a GLB file counts, or in chunks of a kind that is not known
 };
 

@@ -253,6 +253,26 @@ json Checker::scene(const json& in, const std::string& where) const {
   return out;
 }
 
+// A material says nothing of strands, so that a damaged one is as good as none.
+std::optional<std::array<float, 3>> firstBaseColor(const json& root) {
+  const json nothing;
+  const auto child = [&](const json& in, const char* name) -> const json& {
+    const auto found = in.is_object() ? in.find(name) : in.end();
+    return found != in.end() ? *found : nothing;
+  };
+  const json& materials = child(root, "materials");
+  const json& factor = child(child(materials.is_array() && !materials.empty() ? materials[0] : nothing, "pbrMetallicRoughness"), "baseColorFactor");
+  if (!factor.is_array() || factor.size() < 3) return {};
+  std::array<float, 3> color{};
+  for (size_t i = 0; i < 3; ++i) {
+    if (!factor[i].is_number()) return {};
+    const double value = factor[i].get<double>();
+    if (!(value >= 0 && value <= 1)) return {};
+    color[i] = float(value);
+  }
+  return color;
+}
+
 CheckedGltf Checker::run() {
   if (!root_.is_object()) refuseGltf("GLTF_JSON", "its JSON is " + shown(root_) + " where glTF has an object: it is no glTF file");
   json& document = result_.document = json::object();
@@ -273,6 +293,7 @@ CheckedGltf Checker::run() {
   section("nodes", [&](const json& in, const std::string& where) { return node(in, where); });
   section("scenes", [&](const json& in, const std::string& where) { return scene(in, where); });
   reference(root_, document, "the file", "scene", "scenes");
+  result_.base_color = firstBaseColor(root_);
   return std::move(result_);
 }
 

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +17,7 @@ struct CheckedGltf {
   std::vector<std::string> buffer_uris;  // taken out of the document; empty: none
   std::vector<uint64_t> buffer_bytes;    // byteLength
   bool deforms = false;                  // skins or morph targets, which are not read
+  std::optional<std::array<float, 3>> base_color;  // of the first material (linear)
 };
 
 // Throws GltfRefusal, which names the field.

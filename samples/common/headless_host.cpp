@@ -488,11 +488,11 @@ bool HeadlessHost::uploadDepth() {
   return submit([&](VkCommandBuffer) { i.uploadImage(i.depth, kDepthRange, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL); });
 }
 
-FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned) {
-  return renderTogether(view, {&frame, 1}, planned);
+FlkResult HeadlessHost::render(FlkView view, FlkFrame& frame, FlkPlan* planned, const Around& around) {
+  return renderTogether(view, {&frame, 1}, planned, around);
 }
 
-FlkResult HeadlessHost::renderTogether(FlkView view, std::span<FlkFrame> frames, FlkPlan* planned) {
+FlkResult HeadlessHost::renderTogether(FlkView view, std::span<FlkFrame> frames, FlkPlan* planned, const Around& around) {
   Impl& i = *impl_;
   std::vector<FlkPlan> plans;
   const uint64_t completed = i.frame;
@@ -501,6 +501,7 @@ FlkResult HeadlessHost::renderTogether(FlkView view, std::span<FlkFrame> frames,
     const FlkDepthSource given = frame.depth;
     fillFrame(frame);
     if (given.layout == kNoDepth) frame.depth = {};
+    if (around.fill) around.fill(frame);
     frame.frame_number = i.frame + 1;
     frame.completed_frame = completed;
     FlkPlan plan = nullptr;
@@ -533,7 +534,9 @@ FlkResult HeadlessHost::renderTogether(FlkView view, std::span<FlkFrame> frames,
         i.resources.transition(cmd, i.outputs[o].image, kColorRange, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         i.fn.vkCmdClearColorImage(cmd, i.outputs[o].image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &unset, 1, &kColorRange);
       }
+      if (around.before) around.before(cmd);
       flkCmdRender(cmd, plan);
+      if (around.after) around.after(cmd);
     }
   });
   if (planned) *planned = plans.back();
@@ -545,26 +548,6 @@ FlkResult HeadlessHost::statistics(FlkView view, FlkStatistics& statistics) cons
 }
 
 std::vector<float> HeadlessHost::readColor() { return readImage(impl_->color, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL); }
-
-std::vector<float> HeadlessHost::readImage(const GpuImage& image, VkImageLayout layout) {
-  Impl& i = *impl_;
-  const std::size_t values = std::size_t(image.width) * image.height * 4;
-  std::vector<float> rgba(values);
-  if (!i.ensureTransfer(values * 2)) return {};
-  const bool move = layout != VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-  const bool done = submit([&](VkCommandBuffer cmd) {
-    if (move) i.resources.transition(cmd, image, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageExtent = {image.width, image.height, 1};
-    i.fn.vkCmdCopyImageToBuffer(cmd, image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1, &region);
-    if (move) i.resources.transition(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
-  });
-  if (!done) return {};
-  const auto* half = static_cast<const uint16_t*>(i.transfer.mapped);
-  std::transform(half, half + values, rgba.begin(), halfToFloat);
-  return rgba;
-}
 
 std::vector<float> HeadlessHost::readShadowMap(const FlkShadowMap& map) {
   Impl& i = *impl_;
@@ -583,6 +566,31 @@ std::vector<float> HeadlessHost::readShadowMap(const FlkShadowMap& map) {
   });
   std::memcpy(depth.data(), i.transfer.mapped, values * 4);
   return depth;
+}
+
+std::vector<float> HeadlessHost::readImage(const GpuImage& image, VkImageLayout layout) {
+  Impl& i = *impl_;
+  const bool color = image.format == VK_FORMAT_R16G16B16A16_SFLOAT;
+  const std::size_t pixels = std::size_t(image.width) * image.height;
+  std::vector<float> values(pixels * (color ? 4 : 1));
+  if (!i.ensureTransfer(pixels * (color ? 8 : 4))) return {};
+  const bool move = layout != VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+  const bool done = submit([&](VkCommandBuffer cmd) {
+    if (move) i.resources.transition(cmd, image, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {image.range.aspectMask, 0, 0, 1};
+    region.imageExtent = {image.width, image.height, 1};
+    i.fn.vkCmdCopyImageToBuffer(cmd, image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, i.transfer.buffer, 1, &region);
+    if (move) i.resources.transition(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
+  });
+  if (!done) return {};
+  if (color) {
+    const auto* half = static_cast<const uint16_t*>(i.transfer.mapped);
+    std::transform(half, half + values.size(), values.begin(), halfToFloat);
+  } else {
+    std::memcpy(values.data(), i.transfer.mapped, values.size() * 4);
+  }
+  return values;
 }
 
 std::vector<float> HeadlessHost::readOutput(uint32_t output) {

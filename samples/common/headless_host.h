@@ -62,19 +62,27 @@ public:
   // Creates a hair and uploads it, waiting.
   FlkResult createHair(const FlkHairDesc& desc, FlkHair* hair);
 
+  // What a program draws around the hair in the same submission, and what of it the frame is to know: `fill` may change the frame after
+  // this host has filled it in, `before` and `after` record on both sides of flkCmdRender. Each may be empty.
+  struct Around {
+    std::function<void(FlkFrame&)> fill;
+    std::function<void(VkCommandBuffer)> before, after;
+  };
+
   // Fills in target, depth, frame_number and completed_frame, plans, records, submits and waits. The plan stays valid until
   // the view has made frames_in_flight more.
-  FlkResult render(FlkView view, FlkFrame& frame, FlkPlan* plan = nullptr);
+  FlkResult render(FlkView view, FlkFrame& frame, FlkPlan* plan = nullptr, const Around& around = {});
   // Several frames of one view in one submission, none completed when the next is planned; depth.layout kNoDepth leaves the
   // depth source out of a frame. What stays in the target is the last.
-  FlkResult renderTogether(FlkView view, std::span<FlkFrame> frames, FlkPlan* last = nullptr);
+  FlkResult renderTogether(FlkView view, std::span<FlkFrame> frames, FlkPlan* last = nullptr, const Around& around = {});
   static constexpr VkImageLayout kNoDepth = VK_IMAGE_LAYOUT_MAX_ENUM;
   FlkResult statistics(FlkView view, FlkStatistics& statistics) const;
 
   std::vector<float> readColor();                               // width x height x RGBA
-  // Of any image of halves of four channels, which is left in the layout that it is in; empty: no memory, or the device is lost.
-  std::vector<float> readImage(const GpuImage& image, VkImageLayout layout);
   std::vector<float> readShadowMap(const FlkShadowMap& map);    // size x size
+  // The first layer of an image of the caller's, of RGBA16F or D32 with TRANSFER_SRC usage, that the last submission left in `layout` and
+  // that stays in it. Empty: no memory, or the device is lost.
+  std::vector<float> readImage(const GpuImage& image, VkImageLayout layout);
 
   // Pictures besides the colour for the frames that follow, cleared to -1 before each: bits 1 << FLK_OUTPUT_...
   void setOutputs(uint32_t mask);

@@ -87,6 +87,21 @@ void readAsset(const nlohmann::json& json, const std::string& path, SceneAsset& 
   reader.integer("points_per_strand", asset.points_per_strand, 2, 65536);
 }
 
+void readMeshKeys(const nlohmann::json& json, const std::string& path, SceneMesh& mesh) {
+  checkKeys(json, path, {"source", "position", "turn", "scale", "color"});
+  KeyReader reader(json, path);
+  reader.require("source");
+  reader.text("source", mesh.source);
+  reader.vector("position", mesh.position, -1e6, 1e6, "m");
+  reader.number("turn", mesh.turn_deg, -360.0, 360.0, "degrees");
+  reader.number("scale", mesh.scale, 1e-6, 1e6, "");
+  if (reader.has("color")) {
+    glm::dvec3 color;
+    readColor(reader, "color", color);
+    mesh.color = color;
+  }
+}
+
 void readCamera(const nlohmann::json& json, SceneCamera& camera) {
   checkKeys(json, "camera", {"name", "azimuth", "elevation", "up", "vertical_fov", "margin", "eye", "target",
                              "up_vector", "near", "far", "view_height", "reversed_depth"});
@@ -183,14 +198,18 @@ SceneLens readLens(const nlohmann::json& json) {
 }
 
 Scene readScene(const nlohmann::json& json) {
-  checkKeys(json, "", {"assets", "light", "lights", "ambient", "sky", "ambient_sh", "exposure", "camera", "size",
-                       "background", "head", "method", "k", "k_sort", "tail", "low_shade", "core_taps", "payload", "capture", "show",
-                       "near_fade", "lens"});
+  checkKeys(json, "", {"assets", "meshes", "light", "lights", "ambient", "sky", "ambient_sh", "exposure", "camera", "size",
+                       "background", "head", "method", "k", "k_sort", "tail", "low_shade", "core_taps", "payload", "capture", "show", "near_fade",
+                       "lens"});
   Scene scene;
   KeyReader top(json, "");
   const nlohmann::json& assets = top.array("assets", 63);
   for (size_t i = 0; i < assets.size(); ++i) {
     readAsset(assets[i], "assets[" + std::to_string(i) + "]", scene.assets.emplace_back());
+  }
+  const nlohmann::json& meshes = top.array("meshes", 63);
+  for (size_t i = 0; i < meshes.size(); ++i) {
+    readMeshKeys(meshes[i], "meshes[" + std::to_string(i) + "]", scene.meshes.emplace_back());
   }
   readLighting(json, top, scene);
   top.number("exposure", scene.exposure, 0.0, 1e6, "");
@@ -287,6 +306,9 @@ Scene loadScene(const std::string& path) {
       name = (std::filesystem::path(path).parent_path() / name).string();
     }
   };
+  for (SceneMesh& mesh : scene.meshes) {
+    fromHere(mesh.source);
+  }
   for (SceneAsset& asset : scene.assets) {
     if (asset.source.rfind("groom:", 0) != 0) {
       fromHere(asset.source);

@@ -44,6 +44,15 @@ struct SceneAsset {
   bool ignore_colors = false;  // leave the asset's vertex colours out
 };
 
+// Opaque triangles beside the hair.
+struct SceneMesh {
+  std::string source;  // path of a glTF or GLB file
+  glm::dvec3 position{0.0, 0.0, 0.0};  // (m)
+  double turn_deg = 0.0;               // about the up axis
+  double scale = 1.0;
+  std::optional<glm::dvec3> color;     // linear; none: the file's
+};
+
 // Hair fades in between two view depths.
 struct SceneNearFade {
   double start_m = 0.0, end_m = 0.0;
@@ -69,6 +78,7 @@ struct SceneCamera {
 
 struct Scene {
   std::vector<SceneAsset> assets;
+  std::vector<SceneMesh> meshes;
   std::vector<SceneLight> lights = std::vector<SceneLight>(1);
   glm::dvec3 ambient{0.06, 0.065, 0.075};  // radiance from everywhere, times the exposure
   std::optional<SceneSky> sky;             // added to it, at most one of the two

@@ -82,6 +82,13 @@ std::string writeScene(const Scene& scene, bool one_line) {
   for (const SceneAsset& asset : scene.assets) {
     json["assets"].push_back(assetJson(asset));
   }
+  for (const SceneMesh& mesh : scene.meshes) {
+    Json& entry = json["meshes"].emplace_back();
+    entry = {{"source", mesh.source}, {"position", triple(mesh.position)}, {"turn", mesh.turn_deg}, {"scale", mesh.scale}};
+    if (mesh.color) {
+      entry["color"] = colorJson(*mesh.color);
+    }
+  }
   if (scene.lights.size() == 1) {
     json["light"] = lightJson(scene.lights[0]);
   } else {

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "picture.h"
 
-#include "bust.h"
-
-#include <glm/geometric.hpp>
-#include <glm/gtc/type_ptr.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/trigonometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -21,110 +14,6 @@ constexpr uint32_t kMostAttempts = 4;
 constexpr uint32_t kSoundingSize = 320;  // pixels of the longer side of the first picture
 
 double luminance(const glm::dvec3& rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
-
-float depthValue(const float projection[16], float depth) {
-  const float z = projection[10] * -depth + projection[14];
-  const float w = projection[11] * -depth + projection[15];
-  return std::clamp(z / w, 0.0f, 1.0f);
-}
-
-// docs/methods.md section 4 for a point of the bust, averaged over a disc: the map's strands are a texel wide and would
-// draw their pattern on the skin.
-struct HairShadow {
-  struct Face {
-    FlkShadowMap map;
-    std::vector<float> depth;  // map values
-  };
-  std::vector<Face> faces;     // none: nothing is shadowed
-  glm::dvec3 position{0.0};    // of a point or spot light
-  float fibres_per_metre = 0.0f;
-  float log2_transmittance = 0.0f;
-
-  float operator()(const glm::vec3& p) const {
-    const Face* face = nullptr;
-    glm::dvec4 at(0.0);
-    for (const Face& other : faces) {  // of six the one that the point lies before
-      const glm::dvec4 there = glm::make_mat4(other.map.texels_from_world) * glm::dvec4(p, 1.0);
-      if (!face || there.z > at.z) {
-        face = &other;
-        at = there;
-      }
-    }
-    if (!face || (face->map.perspective && at.z <= 0.0)) {
-      return 1.0f;
-    }
-    const FlkShadowMap& map = face->map;
-    double texel = static_cast<double>(map.texel);
-    double distance = at.z;
-    if (map.perspective) {
-      texel *= at.z;
-      distance = glm::length(glm::dvec3(p) - position);
-      at /= at.w;
-    }
-    float light = 0.0f, sum = 0.0f;
-    const int size = static_cast<int>(map.size);
-    const int reach = static_cast<int>(std::clamp(0.004 / texel, 2.0, 16.0));  // 4 mm
-    const int middle_x = static_cast<int>(std::clamp(at.x, -1e6, 1e6));
-    const int middle_y = static_cast<int>(std::clamp(at.y, -1e6, 1e6));
-    for (int j = -reach; j <= reach; ++j) {
-      for (int i = -reach; i <= reach; ++i) {
-        if (i * i + j * j > reach * reach) {
-          continue;
-        }
-        const int x = middle_x + i, y = middle_y + j;
-        sum += 1.0f;
-        const bool outside = x < 0 || y < 0 || x >= size || y >= size;
-        const float front = outside ? 1.0f : face->depth[static_cast<size_t>(y) * map.size + static_cast<size_t>(x)];
-        const float behind = front >= 1.0f ? 0.0f : static_cast<float>(distance) - front * map.depth_range;
-        light += std::exp2(std::max(behind, 0.0f) * fibres_per_metre * log2_transmittance);
-      }
-    }
-    return light / sum;
-  }
-};
-
-constexpr size_t kMostBustShadows = 8;  // lights whose shadow maps are read back for the bust
-
-// Skin is lit for its own picture: beside fibres, which reflect little of their light, it would burn out. So the lights
-// keep their colours and what they are to each other, but come to 2.2 at the head's centre, or less where the light
-// around is most of it. Light from behind counts for less: it would leave the side that is seen in the dark.
-BustLook litBust(const Stage& stage, const Camera& camera) {
-  const Scene& scene = stage.scene;
-  const auto strongest = [](const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); };
-  Harmonics harmonics{};
-  stageHarmonics(stage, harmonics);
-  const glm::dvec3 back = cameraBasis(camera).back;
-  double direct = 0.0;
-  for (const SceneLight& light : scene.lights) {
-    const glm::dvec3 towards = light.kind == FLK_LIGHT_DIRECTIONAL ? towardsLight(light, camera) : light.position;
-    const double facing = glm::dot(towards, back) / std::max(glm::length(towards), 1e-9);
-    direct += strongest(light.color) * light.intensity * lightFalloff(light, glm::dvec3(0.0)) *
-              std::clamp((facing + 0.2) / 0.7, 0.3, 1.0);
-  }
-  const double around = strongest(scene.ambient + 0.282095 * harmonics[0]);
-  const double scale = 2.2 / std::max({direct, 4.0 * around, 1e-9});
-  BustLook look;
-  look.lights.clear();
-  for (const SceneLight& wanted : scene.lights) {
-    BustLight& light = look.lights.emplace_back();
-    light.color = glm::vec3(wanted.color * (wanted.intensity * scale));
-    light.to_light = glm::vec3(towardsLight(wanted, camera));
-    light.placed = wanted.kind != FLK_LIGHT_DIRECTIONAL;
-    light.position = glm::vec3(wanted.position);
-    light.range = static_cast<float>(wanted.range_m);
-    light.source_radius = static_cast<float>(wanted.source_radius_mm * 1e-3);
-    if (wanted.kind == FLK_LIGHT_SPOT) {
-      light.cos_inner = static_cast<float>(std::cos(glm::radians(wanted.inner_angle_deg)));
-      light.cos_outer = static_cast<float>(std::cos(glm::radians(wanted.outer_angle_deg)));
-    }
-  }
-  constexpr double around_skin = 0.76;  // of the lights' scale: 2.4 times what is physical, so that no side is black
-  look.ambient = glm::vec3(scene.ambient * (scale * around_skin));
-  for (size_t i = 0; i < harmonics.size(); ++i) {
-    look.ambient_sh[i] = glm::vec3(harmonics[i] * (scale * around_skin));
-  }
-  return look;
-}
 
 }  // namespace
 
@@ -155,13 +44,12 @@ double exposureOf(const std::vector<float>& rgba, const Stage& stage) {
   return std::clamp(scale, 1e-6, 1e6);
 }
 
-// What a small picture without a head tells.
-struct Painter::Sounding {
-  double exposure = 1.0;
-  std::vector<std::shared_ptr<const HairShadow>> shadows;  // by light
-};
-
 Painter::Painter(HeadlessHost& host, const Stage& stage) : host_(host), stage_(stage) {
+  std::string error;
+  opaque_ = OpaqueScene::create(host, opaqueMeshes(stage), error);
+  if (!opaque_) {
+    throw AssetError(FLK_ERROR_OUT_OF_DEVICE_MEMORY, error);
+  }
   for (const StagedAsset& asset : stage.assets) {
     FlkHair hair = nullptr;
     check(host_.createHair(stagedHairDesc(asset), &hair), "uploading the hair");
@@ -184,10 +72,52 @@ void Painter::check(FlkResult result, const char* what) const {
   throw AssetError(result, text);
 }
 
-void Painter::drawUntilWhole(FlkFrame& frame, Picture& picture) {
+Painter::~Painter() { host_.resources().destroy(opaque_color_); }
+
+// Whatever the meshes hide: an exposure that followed it would change as they are turned on and off.
+double Painter::soundExposure(const Camera& camera) {
+  const Scene& scene = stage_.scene;
+  const uint32_t longer = std::max(scene.width, scene.height);
+  const auto reduced = [&](uint32_t side) {
+    return longer <= kSoundingSize ? side : std::max(1u, static_cast<uint32_t>(uint64_t{side} * kSoundingSize / longer));
+  };
+  const uint32_t width = reduced(scene.width), height = reduced(scene.height);
+  StagedFrame staged(stage_, camera, hairs_, 1.0, width, height);
+  Picture picture;
+  if (!host_.resize(width, height)) {
+    check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "making an image");
+  }
+  drawUntilWhole(staged, false, picture);
+  return exposureOf(host_.readColor(), stage_);
+}
+
+void Painter::readyMeshes(const Camera& camera) {
+  const uint32_t width = stage_.scene.width, height = stage_.scene.height;
+  if (!opaque_->prepare(camera, stage_.aspect(), width, height, opaqueLook(stage_, camera))) {
+    check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "making an image");
+  }
+  if (opaque_->empty() || (opaque_color_.width == width && opaque_color_.height == height)) {
+    return;
+  }
+  host_.resources().destroy(opaque_color_);
+  if (!host_.resources().createImage({width, height, 1, VK_IMAGE_VIEW_TYPE_2D, VK_FORMAT_R16G16B16A16_SFLOAT,
+                                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                      VK_IMAGE_ASPECT_COLOR_BIT},
+                                     opaque_color_)) {
+    check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "making an image");
+  }
+}
+
+void Painter::drawUntilWhole(StagedFrame& staged, bool with_meshes, Picture& picture) {
+  HeadlessHost::Around around;
+  if (with_meshes) {
+    around.fill = [&](FlkFrame& frame) { opaque_->fillFrame(frame, staged.lights); };
+    around.before = [&](VkCommandBuffer cmd) { opaque_->recordDepth(cmd); };
+    around.after = [&](VkCommandBuffer cmd) { opaque_->recordColor(cmd, view_, opaque_color_); };
+  }
   for (picture.attempts = 1;; ++picture.attempts) {
     FlkPlan plan = nullptr;
-    check(host_.render(view_, frame, &plan), "drawing");
+    check(host_.render(view_, staged.frame, &plan, around), "drawing");
     check(host_.statistics(view_, picture.statistics), "reading the statistics");
     if (picture.statistics.overflow_fragments > 0 && picture.attempts < kMostAttempts) {
       continue;  // the next plan knows how many fragments there are
@@ -200,86 +130,34 @@ void Painter::drawUntilWhole(FlkFrame& frame, Picture& picture) {
   }
 }
 
-Painter::Sounding Painter::sound(const Camera& camera) {
-  Sounding sounding;
-  const Scene& scene = stage_.scene;
-  const uint32_t longer = std::max(scene.width, scene.height);
-  const auto reduced = [&](uint32_t side) {
-    return longer <= kSoundingSize ? side : std::max(1u, static_cast<uint32_t>(uint64_t{side} * kSoundingSize / longer));
-  };
-  const uint32_t width = reduced(scene.width), height = reduced(scene.height);
-  if (!host_.resize(width, height)) {
-    check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "making an image");
-  }
-  StagedFrame staged(stage_, camera, hairs_, 1.0, width, height);
-  Picture picture;
-  drawUntilWhole(staged.frame, picture);
-  sounding.exposure = exposureOf(host_.readColor(), stage_);
-  const size_t shadowing = *scene.head ? std::min(scene.lights.size(), kMostBustShadows) : 0;
-  for (size_t i = 0; i < shadowing; ++i) {
-    const auto shadow = std::make_shared<HairShadow>();
-    FlkShadowMap map = {};
-    for (uint32_t face = 0; flkViewGetShadowMap(view_, static_cast<uint32_t>(i), face, &map) == FLK_SUCCESS; ++face) {
-      shadow->faces.push_back({map, host_.readShadowMap(map)});
-      if (face + 1 >= map.face_count || shadow->faces.back().depth.empty()) {
-        break;
-      }
-    }
-    std::erase_if(shadow->faces, [](const HairShadow::Face& face) { return face.depth.empty(); });
-    const FlkMaterial& material = stage_.assets[0].material;
-    shadow->position = scene.lights[i].position;
-    shadow->fibres_per_metre = 1.0f / material.fibre_spacing;
-    shadow->log2_transmittance = std::log2(std::max(1.0f - material.shadow_opacity, 1e-6f));
-    sounding.shadows.push_back(shadow);
-  }
-  return sounding;
-}
-
 Picture Painter::draw(const Camera& camera, double exposure) {
   const Scene& scene = stage_.scene;
   const bool shaded = scene.display == FLK_DISPLAY_SHADED && scene.coloring == StrandColoring::none;
   Picture picture;
-  picture.exposure = exposure > 0.0 ? exposure : 1.0;
-  Sounding sounding;
-  if (shaded && (exposure <= 0.0 || *scene.head)) {
-    sounding = sound(camera);
-    picture.exposure = exposure > 0.0 ? exposure : sounding.exposure;
-  }
+  picture.exposure = exposure > 0.0 ? exposure : shaded ? soundExposure(camera) : 1.0;
   StagedFrame staged(stage_, camera, hairs_, picture.exposure, scene.width, scene.height);
   if (!host_.resize(scene.width, scene.height)) {
     check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "making an image");
   }
-  Image bust;
-  if (*scene.head) {
-    BustLook look = litBust(stage_, camera);
-    if (!shaded) {
-      look.albedo = glm::vec3(0.10f);
-    }
-    for (size_t i = 0; i < sounding.shadows.size(); ++i) {
-      look.lights[i].light_through_hair = [shadow = sounding.shadows[i]](const glm::vec3& p) { return (*shadow)(p); };
-    }
-    BustImage drawn = drawBust(camera, scene.width, scene.height, look);
-    bust = std::move(drawn.color);
-    for (float& depth : drawn.depth) {
-      const float off = camera.reversed_depth ? 0.0f : 1.0f;
-      depth = std::isfinite(depth) ? depthValue(staged.frame.clip_from_view, depth) : off;
-    }
-    host_.setDepth(std::move(drawn.depth));
-  }
-  drawUntilWhole(staged.frame, picture);
+  readyMeshes(camera);
+  drawUntilWhole(staged, !opaque_->empty(), picture);
   picture.image = Image(scene.width, scene.height);
   picture.image.rgba = host_.readColor();
-  if (picture.image.rgba.empty()) {
+  std::vector<float> opaque;
+  if (!opaque_->empty()) {
+    opaque = host_.readImage(opaque_color_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  }
+  if (picture.image.rgba.empty() || opaque.empty() != opaque_->empty()) {
     check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "reading the image back");
   }
-  // The bust is put under the hair here and not before it is drawn, so that alpha still tells where hair is.
+  // Meshes are put under the hair here and not before it is drawn, so that alpha still tells where hair is.
   for (size_t i = 0; i < picture.image.rgba.size(); i += 4) {
     float* pixel = &picture.image.rgba[i];
     picture.hair_pixels += pixel[3] > 0.0f ? 1 : 0;
-    if (!bust.rgba.empty()) {
+    if (!opaque.empty()) {
       const float through = 1.0f - pixel[3];
       for (size_t channel = 0; channel < 4; ++channel) {
-        pixel[channel] += through * bust.rgba[i + channel];
+        pixel[channel] += through * opaque[i + channel];
       }
     }
   }

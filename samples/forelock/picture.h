@@ -1,18 +1,21 @@
-// Draws a stage on a device: light chosen, hair drawn until none of it is lost, the bust under it.
+// Draws a stage on a device: light chosen, hair drawn until none of it is lost, the bust and meshes under it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "gpu_resources.h"
 #include "headless_host.h"
 #include "image.h"
+#include "opaque_scene.h"
 #include "stage.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace forelock::samples {
 
 struct Picture {
-  Image image;                 // over the bust and the background, if there are any
+  Image image;                 // over the meshes and the background, if there are any
   double exposure = 0.0;       // what all light is multiplied by
   uint64_t hair_pixels = 0;    // where hair is not wholly transparent
   FlkStatistics statistics{};  // of the frame that is shown
@@ -30,20 +33,26 @@ double exposureOf(const std::vector<float>& rgba, const Stage& stage);
 
 class Painter {
  public:
-  // Uploads the stage's hair. Throws AssetError.
+  // Uploads the stage's hair and meshes. Throws AssetError.
   Painter(HeadlessHost& host, const Stage& stage);
+  ~Painter();
+  Painter(const Painter&) = delete;
+  Painter& operator=(const Painter&) = delete;
 
   // `exposure` 0: chosen here. Throws AssetError.
   Picture draw(const Camera& camera, double exposure);
 
  private:
-  struct Sounding;
-  Sounding sound(const Camera& camera);
+  // From a small first picture, without meshes.
+  double soundExposure(const Camera& camera);
   void check(FlkResult result, const char* what) const;
-  void drawUntilWhole(FlkFrame& frame, Picture& picture);
+  void readyMeshes(const Camera& camera);
+  void drawUntilWhole(StagedFrame& staged, bool with_meshes, Picture& picture);
 
   HeadlessHost& host_;
   const Stage& stage_;
+  std::unique_ptr<OpaqueScene> opaque_;
+  GpuImage opaque_color_;
   std::vector<Hair> hairs_;
   View view_;
 };

@@ -1,5 +1,4 @@
 // `forelock preview --sheet`: views and colourings of one asset in one picture. SPDX-License-Identifier: MIT
-#include "bust.h"
 #include "colored_stage.h"
 #include "commands.h"
 #include "contact_sheet.h"

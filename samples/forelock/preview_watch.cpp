@@ -62,6 +62,9 @@ std::vector<std::string> filesOf(const PreviewArguments& arguments, const Scene&
   if (!arguments.scene.empty() && !isInlineScene(arguments.scene)) {
     files.push_back(arguments.scene);
   }
+  for (const SceneMesh& mesh : scene.meshes) {
+    files.push_back(mesh.source);
+  }
   for (const SceneAsset& asset : scene.assets) {
     addSource(asset.source, files);
     if (!asset.root_image.empty()) {

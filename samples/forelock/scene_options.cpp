@@ -100,6 +100,8 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments, std::vector<s
   CLI::Option* head = command.add_flag("--head", arguments.head, "Draw the bust")->group(look);
   command.add_flag("--no-head", arguments.no_head, "Draw no bust [drawn under grooms that lie on it]")
       ->excludes(head)->group(look);
+  command.add_option("--mesh", arguments.meshes, "An opaque mesh of a .gltf or .glb file beside the hair, or several: --mesh A --mesh B")
+      ->type_name("FILE")->allow_extra_args(false)->group(look);
   command.add_option("--color", arguments.show,
                      "shaded; of the drawing: width (in pixels), depth, layers (fragments a pixel)\n"
                      "of the strands: strand (one a strand), root-tip, curvature, length, segments (each by its\n"
@@ -177,6 +179,9 @@ Scene makeScene(const CLI::App& command, const SceneArguments& arguments) {
     if (asked("--alpha")) asset.material.opacity_root = asset.material.opacity_tip = static_cast<float>(arguments.alpha);
     if (asked("--points-per-strand")) asset.points_per_strand = arguments.points_per_strand;
     if (asked("--width")) asset.width_mm = arguments.width_mm;
+  }
+  for (const std::string& file : arguments.meshes) {
+    scene.meshes.emplace_back().source = file;
   }
   if (asked("--light")) turnLight(arguments.light, scene);
   if (asked("--exposure")) scene.exposure = arguments.exposure;

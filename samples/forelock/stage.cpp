@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace forelock::samples {
 
@@ -20,7 +21,9 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr size_t kMostSeen = 1u << 20;  // points for framing: one in so many is left out beyond
 
-void placementOf(const SceneAsset& asset, UpAxis up, double matrix[16]) {
+// Of an asset or a mesh.
+template <class Placed>
+void place(const Placed& asset, UpAxis up, double matrix[16]) {
   const double c = std::cos(asset.turn_deg * kDegree) * asset.scale;
   const double s = std::sin(asset.turn_deg * kDegree) * asset.scale;
   std::fill(matrix, matrix + 16, 0.0);
@@ -108,9 +111,45 @@ void noteUpAxis(Stage& stage, const StagedAsset& asset) {
   }
 }
 
+StagedMesh openMesh(const SceneMesh& wanted, UpAxis up) {
+  StagedMesh staged;
+  {
+    Progress progress("opening " + wanted.source);
+    staged.mesh = readMesh(wanted.source, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+  }
+  if (wanted.color) {
+    staged.mesh.albedo = glm::vec3(*wanted.color);
+  }
+  double m[16];
+  place(wanted, up, m);
+  staged.low = glm::vec3(std::numeric_limits<float>::max());
+  staged.high = -staged.low;
+  for (size_t v = 0; v < staged.mesh.vertices(); ++v) {
+    float* position = &staged.mesh.positions[3 * v];
+    float* normal = &staged.mesh.normals[3 * v];
+    const glm::dvec3 p(position[0], position[1], position[2]), n(normal[0], normal[1], normal[2]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const glm::dvec3 row(m[axis], m[4 + axis], m[8 + axis]);
+      position[axis] = static_cast<float>(glm::dot(row, p) + m[12 + axis]);
+      normal[axis] = static_cast<float>(glm::dot(row, n) / wanted.scale);
+      staged.low[axis] = std::min(staged.low[axis], position[axis]);
+      staged.high[axis] = std::max(staged.high[axis], position[axis]);
+    }
+  }
+  return staged;
+}
+
+// No part of a box is cut off by the camera's planes.
+void enclose(const glm::dvec3& low, const glm::dvec3& high, double nearest, Camera& camera) {
+  const double reach = 0.5 * glm::length(high - low);
+  const double depth = glm::dot(camera.eye - 0.5 * (low + high), cameraBasis(camera).back);
+  camera.near_m = std::max(std::min(camera.near_m, depth - reach), nearest);
+  camera.far_m = std::max(camera.far_m, depth + reach);
+}
+
 }  // namespace
 
-void placeAsset(const SceneAsset& wanted, UpAxis up, StagedAsset& asset) { placementOf(wanted, up, asset.world_from_hair); }
+void placeAsset(const SceneAsset& wanted, UpAxis up, StagedAsset& asset) { place(wanted, up, asset.world_from_hair); }
 
 std::string passWork(const FlkPassInfo& pass) {
   if (pass.indices > 0) {
@@ -164,6 +203,9 @@ Stage openStage(const Scene& scene, const ProgressFunction& progress) {
     stage.scene.width = stored ? stored->width : 1024;
     stage.scene.height = stored ? stored->height : 1024;
   }
+  for (const SceneMesh& wanted : scene.meshes) {
+    stage.meshes.push_back(openMesh(wanted, scene.camera.up));
+  }
   if (!scene.head) {
     stage.scene.head = on_bust;
   }
@@ -206,14 +248,16 @@ Camera stageCamera(const Stage& stage, uint32_t turn, uint32_t turns) {
       (*point)[b] = axis[b] + d[a] * std::sin(angle) + d[b] * std::cos(angle);
     }
   }
-  if (*stage.scene.head && !wanted.placed) {  // no part of the bust is cut off by the planes
-    float low[3], high[3];
-    bustBounds(low, high);
-    const glm::dvec3 middle(0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2]));
-    const double reach = 0.5 * std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-    const double depth = glm::dot(camera.eye - middle, cameraBasis(camera).back);
-    camera.near_m = std::max(std::min(camera.near_m, depth - reach), 0.01 * camera.near_m);
-    camera.far_m = std::max(camera.far_m, depth + reach);
+  if (!wanted.placed) {
+    const double nearest = 0.01 * camera.near_m;
+    if (*stage.scene.head) {
+      float low[3], high[3];
+      bustBounds(low, high);
+      enclose({low[0], low[1], low[2]}, {high[0], high[1], high[2]}, nearest, camera);
+    }
+    for (const StagedMesh& mesh : stage.meshes) {
+      enclose(glm::dvec3(mesh.low), glm::dvec3(mesh.high), nearest, camera);
+    }
   }
   return camera;
 }

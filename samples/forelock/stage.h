@@ -3,6 +3,7 @@
 
 #include "asset_source.h"
 #include "legend.h"
+#include "opaque_scene.h"
 #include "scene_file.h"
 
 #include <forelock/forelock.hpp>
@@ -25,9 +26,15 @@ struct StagedAsset {
   double world_from_hair[16];
 };
 
+struct StagedMesh {
+  OpaqueMesh mesh;  // in its place (world, m), with its colour
+  glm::vec3 low{0.0f}, high{0.0f};
+};
+
 struct Stage {
   Scene scene;                // size is set, and head
   std::vector<StagedAsset> assets;
+  std::vector<StagedMesh> meshes;
   std::vector<glm::vec3> seen;  // points that framing must see: an even sample of the vertices, and the head (world, m)
   double radius = 0.0;          // (m) the widest vertex's
   Legend legend;                // of its colours
@@ -58,6 +65,12 @@ glm::dvec3 towardsLight(const SceneLight& light, const Camera& camera);
 
 // The sky's or the scene's own coefficients, before exposure; false: the scene has none.
 bool stageHarmonics(const Stage& stage, Harmonics& harmonics);
+
+// The bust, where the scene has it, and its meshes.
+std::vector<OpaqueMesh> opaqueMeshes(const Stage& stage);
+
+// How they are lit: in their own strength, because skin would burn out beside fibres, which reflect little of their light.
+OpaqueLook opaqueLook(const Stage& stage, const Camera& camera);
 
 // Hairs of the stage's assets in a context that plans.
 std::vector<Hair> planHairs(FlkContext context, const Stage& stage);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace forelock::samples {
 
@@ -13,6 +14,14 @@ namespace {
 constexpr uint64_t kPoolBudget = uint64_t{1} << 30;  // as `forelock preview`: the same picture where lists are long
 constexpr uint32_t kSoundingSize = 320;              // likewise
 constexpr uint32_t kCheapShadow = 512;  // taps and methods stay: others are other pipelines, which take time to compile
+
+constexpr VkImageUsageFlags kHairUsage =
+    VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+
+// Of a depth buffer's value.
+float viewDepth(const float projection[16], float value) {
+  return (value * projection[15] - projection[14]) / (value * projection[11] - projection[10]) * -1.0f;
+}
 
 }  // namespace
 
@@ -23,6 +32,7 @@ ViewLayers::~ViewLayers() {
     host_.resources().destroy(slot.hair);
   }
   host_.resources().destroy(counter_.hair);
+  host_.resources().destroy(opaque_color_);
 }
 
 void ViewLayers::check(FlkResult result, const char* what) const {
@@ -58,6 +68,38 @@ void ViewLayers::setStage(const Stage& stage) {
   }
   hairs_ = std::move(hairs);
   stage_ = &stage;
+  renewMeshes();
+}
+
+void ViewLayers::renewMeshes() {
+  std::string error;
+  opaque_.reset();
+  opaque_ = OpaqueScene::create(host_, opaqueMeshes(*stage_), error);
+  if (!opaque_) {
+    throw AssetError(FLK_ERROR_OUT_OF_DEVICE_MEMORY, error);
+  }
+}
+
+bool ViewLayers::opaqueBounds(float low[3], float high[3]) const {
+  if (!opaque_ || opaque_->empty()) {
+    return false;
+  }
+  opaque_->bounds(low, high);
+  return true;
+}
+
+std::vector<float> ViewLayers::readOpaqueDepth() {
+  if (!opaque_ || opaque_->empty() || !slots_[kLayerFirst].valid) {
+    return {};
+  }
+  std::vector<float> depth = host_.readImage(opaque_->depth(), VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+  float projection[16];
+  projectionMatrix(last_.camera, stage_->aspect(), projection);
+  for (float& value : depth) {
+    const bool none = value == (last_.camera.reversed_depth ? 0.0f : 1.0f);
+    value = none ? std::numeric_limits<float>::infinity() : viewDepth(projection, value);
+  }
+  return depth;
 }
 
 void ViewLayers::setFewStrands(const std::vector<std::unique_ptr<OpenedAsset>>& assets) {
@@ -85,7 +127,7 @@ void ViewLayers::renewHair(size_t index) {
   few_.clear();  // of other follow strands or colours
 }
 
-void ViewLayers::ensureImage(GpuImage& image, uint32_t width, uint32_t height) {
+void ViewLayers::ensureImage(GpuImage& image, uint32_t width, uint32_t height, VkImageUsageFlags usage) {
   if (image.view && image.width == width && image.height == height) {
     return;
   }
@@ -93,7 +135,7 @@ void ViewLayers::ensureImage(GpuImage& image, uint32_t width, uint32_t height) {
   GpuImageShape shape;
   shape.width = width;
   shape.height = height;
-  shape.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  shape.usage = usage;
   if (!host_.resources().createImage(shape, image)) {
     check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "making an image");
   }
@@ -118,6 +160,7 @@ double ViewLayers::chooseExposure(const Camera& camera) {
   request.width = reduced(scene.width);
   request.height = reduced(scene.height);
   request.methods[kLayerFirst] = methodOf(scene);
+  request.meshes = false;  // an exposure that followed them would change as they are turned on and off
   for (int attempt = 0; attempt < 4; ++attempt) {
     plan(request);
     if (!host_.submit([&](VkCommandBuffer cmd) { record(cmd); })) {
@@ -143,6 +186,15 @@ void ViewLayers::plan(const LayerRequest& request) {
   }
   const std::vector<Hair>& hairs = request.few_strands && few_.size() == hairs_.size() ? few_ : hairs_;
   StagedFrame staged(*stage, request.camera, hairs, request.exposure, request.width, request.height);
+  opaque_planned_ = request.meshes && !opaque_->empty();
+  if (opaque_planned_) {
+    if (!opaque_->prepare(request.camera, stage->aspect(), request.width, request.height, opaqueLook(*stage_, request.camera))) {
+      check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "making an image");
+    }
+    ensureImage(opaque_color_, request.width, request.height,
+                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    opaque_->fillFrame(staged.frame, staged.lights);
+  }
   for (uint32_t i = 0; i < kLayerCount; ++i) {
     Slot& slot = slots_[i];
     slot.planned = false;
@@ -151,7 +203,7 @@ void ViewLayers::plan(const LayerRequest& request) {
       continue;
     }
     ensureView(slot);
-    ensureImage(slot.hair, request.width, request.height);
+    ensureImage(slot.hair, request.width, request.height, kHairUsage);
     FlkFrame frame = staged.frame;
     applyMethod(*request.methods[i], frame);
     frame.count_work = request.count_work ? 1 : 0;
@@ -173,6 +225,9 @@ void ViewLayers::plan(const LayerRequest& request) {
 }
 
 void ViewLayers::record(VkCommandBuffer cmd) {
+  if (opaque_planned_) {
+    opaque_->recordDepth(cmd);
+  }
   for (Slot& slot : slots_) {
     if (!slot.planned) {
       continue;
@@ -181,6 +236,10 @@ void ViewLayers::record(VkCommandBuffer cmd) {
     host_.resources().transition(cmd, slot.hair, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     gpu_.vkCmdClearColorImage(cmd, slot.hair.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &transparent, 1, &slot.hair.range);
     flkCmdRender(cmd, slot.plan);
+  }
+  if (opaque_planned_) {  // with the hair's shadow of the first layer: what lights are does not depend on methods
+    opaque_->recordColor(cmd, slots_[kLayerFirst].view, opaque_color_);
+    opaque_planned_ = false;
   }
 }
 
@@ -227,8 +286,18 @@ std::vector<float> ViewLayers::readHair(LayerIndex layer) {
 Image ViewLayers::read(LayerIndex layer) {
   Image image(slots_[layer].hair.width, slots_[layer].hair.height);
   image.rgba = readHair(layer);
-  if (image.rgba.empty()) {
+  std::vector<float> opaque;
+  if (opaqueView()) {
+    opaque = host_.readImage(opaque_color_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  }
+  if (image.rgba.empty() || (opaqueView() && opaque.size() != image.rgba.size())) {
     check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "reading the picture back");
+  }
+  for (size_t i = 0; i < opaque.size(); i += 4) {
+    const float through = 1.0f - image.rgba[i + 3];
+    for (size_t channel = 0; channel < 4; ++channel) {
+      image.rgba[i + channel] += through * opaque[i + channel];
+    }
   }
   return image;
 }
@@ -248,7 +317,7 @@ uint64_t ViewLayers::countFragments(uint32_t x, uint32_t y) {
   crop(1, y, last_.height);
   Slot& slot = counter_;
   ensureView(slot);
-  ensureImage(slot.hair, 1, 1);
+  ensureImage(slot.hair, 1, 1, kHairUsage);
   frame.display = FLK_DISPLAY_SHADED;
   frame.light_count = 0;
   frame.count_only = 1;

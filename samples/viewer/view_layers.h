@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu_resources.h"
+#include "opaque_scene.h"
 #include "picture.h"
 #include "view_gpu.h"
 #include "view_method.h"
@@ -44,6 +45,7 @@ struct LayerRequest {
   std::array<std::optional<MethodChoice>, kLayerCount> methods;  // none: the layer is not drawn
   bool cheap = false;       // small shadow maps: while moving
   bool few_strands = false;
+  bool meshes = true;
   bool count_work = false;
 };
 
@@ -56,6 +58,8 @@ public:
 
   // Uploads the stage's hair, which must outlive its use here. Throws AssetError, and then holds no hair.
   void setStage(const Stage& stage);
+  // The stage's meshes and head anew, as its scene has them now.
+  void renewMeshes();
   // Levels of detail of the stage's assets, one each, for while it moves; empty: none.
   void setFewStrands(const std::vector<std::unique_ptr<OpenedAsset>>& assets);
   bool hasFewStrands() const { return !few_.empty(); }
@@ -75,6 +79,12 @@ public:
 
   bool drawn(LayerIndex layer) const { return slots_[layer].valid; }
   const LayerFacts& facts(LayerIndex layer) const { return slots_[layer].facts; }
+  // Null: there is nothing opaque.
+  VkImageView opaqueView() const { return opaque_ && !opaque_->empty() ? opaque_color_.view : VK_NULL_HANDLE; }
+  // Box around what is opaque (m); false: nothing is.
+  bool opaqueBounds(float low[3], float high[3]) const;
+  // View depth (m) of what is opaque in each pixel of the last full picture, infinity where nothing is; empty: nothing is.
+  std::vector<float> readOpaqueDepth();
   const GpuImage& hairImage(LayerIndex layer) const { return slots_[layer].hair; }  // SHADER_READ_ONLY_OPTIMAL once drawn
 
   // Linear, premultiplied, hair over what is opaque, as `forelock preview` has it before its background.
@@ -94,7 +104,7 @@ private:
     bool valid = false, planned = false;
   };
   void check(FlkResult result, const char* what) const;
-  void ensureImage(GpuImage& image, uint32_t width, uint32_t height);
+  void ensureImage(GpuImage& image, uint32_t width, uint32_t height, VkImageUsageFlags usage);
   void ensureView(Slot& slot);
   Hair upload(const FlkHairDesc& desc, const double world_from_hair[16]);
   void describe(Slot& slot);
@@ -103,6 +113,9 @@ private:
   const ViewGpu& gpu_;
   const Stage* stage_ = nullptr;
   std::vector<Hair> hairs_, few_;
+  std::unique_ptr<OpaqueScene> opaque_;
+  GpuImage opaque_color_;
+  bool opaque_planned_ = false;
   std::array<Slot, kLayerCount> slots_;
   Slot counter_;  // of one pixel
   LayerRequest last_;

@@ -77,6 +77,7 @@ private:
   void open(const Scene& scene);
   void openPath(const std::string& path, bool add);
   void recolor();
+  void encloseMeshes();
   void applyEdits();
   void takeRequests();
   void takeBrowsed();
@@ -223,6 +224,7 @@ void Viewer::adopt(std::unique_ptr<LoadedStage> loaded) {
     high = glm::max(high, glm::dvec3(p) + stage.radius);
   }
   session_.bounds = {low, high};
+  encloseMeshes();
   const bool keep_exposure = loaded->plain == nullptr && stage.scene.exposure > 0.0;
   session_.scene = stage.scene;
   session_.exposure_chosen = !keep_exposure;
@@ -258,6 +260,17 @@ void Viewer::adoptExtras(std::unique_ptr<LoadedExtras> extras) {
   }
 }
 
+// Nothing opaque is cut off by the camera's planes.
+void Viewer::encloseMeshes() {
+  float low[3], high[3];
+  if (device_->layers->opaqueBounds(low, high)) {
+    for (int i = 0; i < 3; ++i) {
+      session_.bounds.low[i] = std::min(session_.bounds.low[i], static_cast<double>(low[i]));
+      session_.bounds.high[i] = std::max(session_.bounds.high[i], static_cast<double>(high[i]));
+    }
+  }
+}
+
 // The stage in other colours, or in its own again.
 void Viewer::recolor() {
   Stage& plain = *session_.plain;
@@ -284,6 +297,15 @@ void Viewer::applyEdits() {
       recolor();
     }
     session_.plain->legend = displayLegend(scene.display);
+    if (scene.head != applied_.head) {
+      for (Stage* stage : {session_.plain.get(), session_.colored.get()}) {
+        if (stage) {
+          stage->scene.head = scene.head;
+        }
+      }
+      device_->layers->renewMeshes();
+      encloseMeshes();
+    }
     bool look = false;
     for (size_t i = 0; i < std::min(scene.assets.size(), session_.plain->assets.size()); ++i) {
       const SceneAsset& wanted = scene.assets[i];
@@ -708,7 +730,8 @@ bool Viewer::planPicture(bool& planned) {
     device_->layers->plan(request);
     const VkImageView first = device_->layers->hairImage(kLayerFirst).view;
     const VkImageView second = request.methods[kLayerSecond] ? device_->layers->hairImage(kLayerSecond).view : first;
-    device_->display->bind({first, second, first, first});
+    const VkImageView opaque = device_->layers->opaqueView();
+    device_->display->bind({first, second, opaque ? opaque : first, opaque ? opaque : first});
     drawn_key_ = key;
     drawn_full_ = !cheap;
     measured_ = false;
@@ -815,6 +838,7 @@ void Viewer::frame() {
         push.mode = session_.shaded() ? static_cast<uint32_t>(session_.compare) : 0;
         push.divider = session_.divider;
         push.gain = session_.gain;
+        push.has_opaque = device_->layers->opaqueView() ? 1 : 0;
         device_->display->record(cmd, push);
       });
   if (!drawn && planned) {  // the window cannot be drawn to now: the picture is drawn all the same

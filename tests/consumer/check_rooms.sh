@@ -24,6 +24,7 @@ sdk/src/api/ $common|$public|sdk/src/(api|gpu|passes|plan|asset)/.*|shaders/shar
 shaders/shared/ shaders/shared/.*
 shaders/lib/ shaders/(lib|shared)/.*
 shaders/passes/ shaders/(passes|lib|shared)/.*
+samples/common/opaque_pipelines. $public|samples/common/.*|vulkan|generated
 samples/common/ $public|samples/common/.*|vulkan
 samples/study/dense. $public|samples/(common|study)/.*|tests/reference/.*|shaders/.*|vulkan|generated
 samples/study/ $public|samples/(common|study)/.*|tests/reference/.*|vulkan|generated

@@ -1,53 +1,87 @@
-// SPDX-License-Identifier: MIT
+// The bust's surface as triangles. SPDX-License-Identifier: MIT
 #include "bust.h"
-
 #include "bust_shape.h"
+#include "opaque_mesh.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace forelock::samples {
 namespace {
 
-// Every depth in the image is a point on the surface; every hole is a ray that a plain march also finds empty.
-TEST(Bust, DepthImageLiesOnTheSurface) {
-  for (bool orthographic : {false, true}) {
-    float low[3], high[3];
-    bustBounds(low, high);
-    Camera camera = frameBounds(low, high, 0.6, 0.2, UpAxis::Y, 0.5, 4.0 / 3.0, 1.05);
-    camera.orthographic = orthographic;
-    camera.view_height = 0.65;
-    constexpr uint32_t width = 160, height = 120;
-    const BustImage image = drawBust(camera, width, height, BustLook{});
-    const CameraBasis basis = cameraBasis(camera);
-    const double half = orthographic ? 0.5 * camera.view_height : std::tan(0.5 * camera.vertical_fov);
-    uint32_t covered = 0;
-    for (uint32_t y = 0; y < height; ++y) {
-      for (uint32_t x = 0; x < width; ++x) {
-        const double px = (x + 0.5 - 0.5 * width) * 2.0 * half / height;
-        const double py = (0.5 * height - y - 0.5) * 2.0 * half / height;
-        const glm::dvec3 across = basis.right * px + basis.up * py;
-        const glm::dvec3 origin = orthographic ? camera.eye + across : camera.eye;
-        const glm::dvec3 direction = orthographic ? -basis.back : across - basis.back;  // view depth 1
-        const float depth = image.depth[y * width + x];
-        if (std::isfinite(depth)) {
-          ++covered;
-          EXPECT_EQ(image.color.pixel(x, y)[3], 1.0f);
-          // A third of a pixel's footprint (about 6 mm here) is called a hit.
-          EXPECT_LT(std::fabs(shape::bust<double>(origin + direction * static_cast<double>(depth))), 0.0025);
-        } else {
-          double nearest = 1.0;
-          for (double t = camera.near_m; t < camera.far_m; t += 0.004) {
-            nearest = std::min(nearest, shape::bust<double>(origin + direction * t));
-          }
-          EXPECT_GT(nearest, -0.001) << x << " " << y;
-        }
-      }
+const OpaqueMesh& bust() {
+  static const OpaqueMesh mesh = bustMesh();
+  return mesh;
+}
+
+glm::dvec3 at(const std::vector<float>& values, uint32_t vertex) {
+  const float* v = &values[size_t{3} * vertex];
+  return {v[0], v[1], v[2]};
+}
+
+TEST(Bust, IsClosedAndOrientedOneWay) {
+  std::map<std::pair<uint32_t, uint32_t>, int> edges;
+  const auto& indices = bust().indices;
+  ASSERT_GT(indices.size(), 0u);
+  for (size_t i = 0; i < indices.size(); i += 3) {
+    for (size_t corner = 0; corner < 3; ++corner) {
+      ASSERT_LT(indices[i + corner], bust().vertices());
+      ++edges[{indices[i + corner], indices[i + (corner + 1) % 3]}];
     }
-    EXPECT_GT(covered, width * height / 6);
   }
+  for (const auto& [edge, count] : edges) {
+    ASSERT_EQ(count, 1) << edge.first << " " << edge.second;
+    ASSERT_EQ(edges.count({edge.second, edge.first}), 1u) << "an edge with a triangle on one side only";
+  }
+}
+
+// A cell's longest diagonal is sqrt(3.9^2 + 4.1^2 + 3.3^2) = 6.6 mm; over it a circle of 12 mm, about the least of radii outside of the face
+// (ears), where cells are that large, falls 0.45 mm from its chord. In the face diagonals are 2.4 mm and radii 1.5 mm or more: 0.48 mm.
+constexpr double kChord = 0.5e-3;
+
+TEST(Bust, LiesOnTheField) {
+  double sum = 0.0;
+  for (uint32_t v = 0; v < bust().vertices(); ++v) {
+    const glm::dvec3 p = at(bust().positions, v), n = at(bust().normals, v);
+    const double off = std::fabs(shape::bust<double>(p));
+    EXPECT_LT(off, 0.1e-3) << p.x << " " << p.y << " " << p.z;
+    sum += off;
+    EXPECT_NEAR(glm::length(n), 1.0, 1e-5);
+    EXPECT_GE(bust().openness[v], 0.0f);
+    EXPECT_LE(bust().openness[v], 1.0f);
+  }
+  EXPECT_LT(sum / static_cast<double>(bust().vertices()), 1e-6) << "a few vertices in creases apart they are on it";
+  const auto& indices = bust().indices;
+  for (size_t i = 0; i < indices.size(); i += 3) {
+    const glm::dvec3 a = at(bust().positions, indices[i]), b = at(bust().positions, indices[i + 1]), c = at(bust().positions, indices[i + 2]);
+    EXPECT_LT(std::fabs(shape::bust<double>((a + b + c) / 3.0)), kChord);
+    const glm::dvec3 normals = at(bust().normals, indices[i]) + at(bust().normals, indices[i + 1]) + at(bust().normals, indices[i + 2]);
+    EXPECT_GT(glm::dot(glm::cross(b - a, c - a), normals), 0.0) << "counterclockwise from outside";
+  }
+}
+
+TEST(Bust, FillsItsBox) {
+  float low[3], high[3];
+  bustBounds(low, high);
+  for (uint32_t v = 0; v < bust().vertices(); ++v) {
+    const glm::dvec3 p = at(bust().positions, v);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_GE(p[axis], static_cast<double>(low[axis]) - 0.012) << "the box is for framing: to about a centimetre";
+      EXPECT_LE(p[axis], static_cast<double>(high[axis]) + 0.012);
+    }
+  }
+}
+
+TEST(Bust, IsTheSameEachTime) {
+  const OpaqueMesh again = bustMesh();
+  EXPECT_EQ(again.positions, bust().positions);
+  EXPECT_EQ(again.normals, bust().normals);
+  EXPECT_EQ(again.openness, bust().openness);
+  EXPECT_EQ(again.indices, bust().indices);
 }
 
 }  // namespace

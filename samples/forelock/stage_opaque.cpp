@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "stage.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace forelock::samples {
+
+std::vector<OpaqueMesh> opaqueMeshes(const Stage& stage) {
+  std::vector<OpaqueMesh> meshes;
+  if (*stage.scene.head) {
+    meshes.push_back(bustMesh());
+  }
+  for (const StagedMesh& staged : stage.meshes) {
+    meshes.push_back(staged.mesh);
+  }
+  return meshes;
+}
+
+// The lights keep their colours and what they are to each other, but come to 2.2 at the head's centre, or less where the light around is
+// most of it. Light from behind counts for less: it would leave the side that is seen in the dark.
+OpaqueLook opaqueLook(const Stage& stage, const Camera& camera) {
+  const Scene& scene = stage.scene;
+  const auto strongest = [](const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); };
+  Harmonics harmonics{};
+  stageHarmonics(stage, harmonics);
+  const glm::dvec3 back = cameraBasis(camera).back;
+  double direct = 0.0;
+  for (const SceneLight& light : scene.lights) {
+    const glm::dvec3 towards = light.kind == FLK_LIGHT_DIRECTIONAL ? towardsLight(light, camera) : light.position;
+    const double facing = glm::dot(towards, back) / std::max(glm::length(towards), 1e-9);
+    direct += strongest(light.color) * light.intensity * lightFalloff(light, glm::dvec3(0.0)) *
+              std::clamp((facing + 0.2) / 0.7, 0.3, 1.0);
+  }
+  const double around = strongest(scene.ambient + 0.282095 * harmonics[0]);
+  const double scale = 2.2 / std::max({direct, 4.0 * around, 1e-9});
+  OpaqueLook look;
+  for (const SceneLight& wanted : scene.lights) {
+    OpaqueLight& light = look.lights.emplace_back();
+    light.kind = wanted.kind;
+    light.color = glm::vec3(wanted.color * (wanted.intensity * scale));
+    light.to_light = glm::vec3(towardsLight(wanted, camera));
+    light.position = wanted.position;
+    light.range = static_cast<float>(wanted.range_m);
+    light.source_radius = static_cast<float>(wanted.source_radius_mm * 1e-3);
+    light.inner_angle = static_cast<float>(glm::radians(wanted.inner_angle_deg));
+    light.outer_angle = static_cast<float>(glm::radians(wanted.outer_angle_deg));
+    light.casts_shadow = wanted.shadow;
+  }
+  constexpr double around_skin = 0.76;  // of the lights' scale: 2.4 times what is physical, so that no side is black
+  look.ambient = glm::vec3(scene.ambient * (scale * around_skin));
+  for (size_t i = 0; i < harmonics.size(); ++i) {
+    look.ambient_sh[i] = glm::vec3(harmonics[i] * (scale * around_skin));
+  }
+  const FlkMaterial& material = stage.assets[0].material;
+  look.fibre_spacing_m = material.fibre_spacing;
+  look.shadow_opacity = material.shadow_opacity;
+  look.flat = scene.display != FLK_DISPLAY_SHADED || scene.coloring != StrandColoring::none;
+  return look;
+}
+
+}  // namespace forelock::samples

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <random>
 
@@ -222,4 +224,38 @@ TEST(FindingStrands, NoneOfSoundHair) {
   for (int i = 0; i < 30; ++i) hair.sound();
   const Found found(hair);
   for (const FindingStrands& entry : found.entries) EXPECT_TRUE(entry.strands.empty()) << entry.finding.code;
+}
+
+// Files of others and our grooms: where a finding counts strands, as many are found.
+TEST(FindingStrands, AsManyAsTheLibraryCounts) {
+  const char* named = std::getenv("FORELOCK_HAIRDATA");
+  std::vector<std::string> sources;
+  for (const std::string& groom : groomNames()) {
+    if (groom != "paper-load") sources.push_back("groom:" + groom);  // which is large and like long-straight
+  }
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(named ? named : FORELOCK_HAIRDATA, error)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".tfx" || extension == ".hair") sources.push_back(entry.path().string());
+  }
+  if (error) std::printf("NOT TESTED: files of others, %s\n", error.message().c_str());
+  for (const std::string& source : sources) {
+    const OpenedAsset opened = openAsset(source);
+    FlkStrands strands{};
+    flkAssetGetStrands(opened.asset.get(), &strands);
+    const StrandFaults faults = findStrandFaults(strands);
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<FindingStrands> entries = findingStrands(opened, faults);
+    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    std::printf("%s: %u strands, %.1f ms\n", source.c_str(), strands.strand_count, ms);
+    for (const FindingStrands& entry : entries) {
+      std::printf("  %s: %s\n", entry.finding.code.c_str(), entry.label.c_str());
+      for (const char* code : {"STRAND_MICRO", "STRAND_DUPLICATE", "ROOT_UV_OUTSIDE_UNIT", "STRAND_LONG", "ROOT_NOT_PINNED"}) {
+        if (entry.finding.code == code) {
+          EXPECT_EQ(entry.strands.size(), entry.finding.count) << source << " " << code;
+        }
+      }
+      for (const uint32_t strand : entry.strands) ASSERT_LT(strand, strands.strand_count);
+    }
+  }
 }

@@ -27,9 +27,9 @@ glm::dmat4 axesAlong(const glm::dvec3& along, const glm::dvec3& origin) {
   return m;
 }
 
-}  // namespace
-
-bool mapOfMeshes(const OpaqueLight& light, const glm::dvec3& centre, double radius, uint32_t size, MeshMap& map) {
+// False: the light has none, because it shines from amid the meshes to all sides.
+bool mapOfSphere(const OpaqueLight& light, const glm::dvec3& centre, double radius, MeshMap& map) {
+  constexpr uint32_t size = kMeshMapSize;
   constexpr double rim = 10.0;  // texels that are left empty all around, for filters
   const double middle = 0.5 * size;
   glm::dmat4 project(0.0);  // from axes to texels and value
@@ -79,6 +79,23 @@ bool mapOfMeshes(const OpaqueLight& light, const glm::dvec3& centre, double radi
   clip[3][0] = clip[3][1] = -1.0;
   map.clip_from_world = glm::mat4(clip * map.map_from_world);
   return true;
+}
+
+}  // namespace
+
+MeshMaps mapsOfMeshes(const std::vector<OpaqueLight>& lights, const glm::vec3& low, const glm::vec3& high) {
+  const glm::dvec3 centre = 0.5 * (glm::dvec3(low) + glm::dvec3(high));
+  const double radius = 0.5 * glm::length(glm::dvec3(high) - glm::dvec3(low)) + 2.0 * static_cast<double>(kMeshMapPush);
+  MeshMaps result;
+  for (const OpaqueLight& light : lights) {
+    MeshMap map;
+    const bool has = light.casts_shadow && result.maps.size() < kMostMeshMaps && mapOfSphere(light, centre, radius, map);
+    result.of_light.push_back(has ? static_cast<int>(result.maps.size()) : -1);
+    if (has) {
+      result.maps.push_back(map);
+    }
+  }
+  return result;
 }
 
 opaque::FaceConstants faceOf(const FlkShadowMap& map) {

@@ -15,9 +15,18 @@ struct MeshMap {
   float texel = 0.0f;              // (m) in perspective at one metre along the axis
 };
 
-// The map, of `size` texels a side, that holds the shadow of all that lies in a sphere. False: the light has none, because it shines from
-// amid the meshes to all sides.
-bool mapOfMeshes(const OpaqueLight& light, const glm::dvec3& centre, double radius, uint32_t size, MeshMap& map);
+constexpr uint32_t kMeshMapSize = 2048;  // texels a side
+constexpr size_t kMostMeshMaps = 8;
+
+// Maps lie behind the surfaces that they are of, for strands that begin on them: hair's roots are on the scalp, or a little under it.
+constexpr float kMeshMapPush = 0.004f;  // (m)
+
+// The maps that hold the shadow of all that lies in a box, and of each light its map or -1.
+struct MeshMaps {
+  std::vector<MeshMap> maps;
+  std::vector<int> of_light;
+};
+MeshMaps mapsOfMeshes(const std::vector<OpaqueLight>& lights, const glm::vec3& low, const glm::vec3& high);
 
 opaque::FaceConstants faceOf(const FlkShadowMap& map);
 

@@ -14,13 +14,8 @@ namespace forelock::samples {
 
 namespace {
 
-constexpr uint32_t kMapSize = 2048;     // texels a side
-constexpr size_t kMostMaps = 8;
-constexpr size_t kMostHairLights = 8;   // whose hair shadow falls on meshes
+constexpr size_t kMostHairLights = 8;  // whose hair shadow falls on meshes
 constexpr size_t kMostFaces = 6 * kMostHairLights;
-
-// Maps lie behind the surfaces that they are of, for strands that begin on them: hair's roots are on the scalp, or a little under it.
-constexpr float kPush = 0.004f;  // (m)
 
 glm::mat4 clipFromWorld(const Camera& camera, double aspect) {
   double view[16];
@@ -48,8 +43,7 @@ struct OpaqueScene::Impl {
   GpuImage depth, maps, no_hair;      // no_hair: bound where there is no hair shadow map, never read
   std::vector<VkImageView> layers;    // of `maps`
   GpuBuffer constants;                // FrameConstants, then faces, then lights
-  std::vector<MeshMap> mesh_maps;     // by layer of `maps`
-  std::vector<int> layer_of;          // by light; -1: none
+  MeshMaps mesh_maps;                 // by layer of `maps`
   std::vector<FlkHostShadow> host_shadows;  // by layer
   glm::mat4 clip_from_world{1.0f};
   bool reversed_depth = false;
@@ -159,7 +153,7 @@ std::unique_ptr<OpaqueScene> OpaqueScene::create(HeadlessHost& host, std::vector
 
 bool OpaqueScene::empty() const { return impl_->draws.empty(); }
 const GpuImage& OpaqueScene::depth() const { return impl_->depth; }
-uint32_t OpaqueScene::shadowMapCount() const { return static_cast<uint32_t>(impl_->mesh_maps.size()); }
+uint32_t OpaqueScene::shadowMapCount() const { return static_cast<uint32_t>(impl_->mesh_maps.maps.size()); }
 
 void OpaqueScene::bounds(float low[3], float high[3]) const {
   for (int axis = 0; axis < 3; ++axis) {
@@ -191,7 +185,7 @@ bool OpaqueScene::Impl::readyMaps(uint32_t count) {
   }
   layers.clear();
   resources->destroy(maps);
-  const uint32_t size = count > 0 ? kMapSize : 1;
+  const uint32_t size = count > 0 ? kMeshMapSize : 1;
   if (!resources->createImage({size, size, std::max(count, 1u), VK_IMAGE_VIEW_TYPE_2D_ARRAY, VK_FORMAT_D32_SFLOAT,
                                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_DEPTH_BIT},
                               maps)) {
@@ -208,12 +202,9 @@ bool OpaqueScene::Impl::readyMaps(uint32_t count) {
 }
 
 void OpaqueScene::Impl::readyLights(const OpaqueLook& look) {
-  const glm::dvec3 centre = 0.5 * (glm::dvec3(low) + glm::dvec3(high));
-  const double radius = 0.5 * glm::length(glm::dvec3(high) - glm::dvec3(low)) + 2.0 * static_cast<double>(kPush);
+  mesh_maps = mapsOfMeshes(look.lights, low, high);
   lights.clear();
-  mesh_maps.clear();
   host_shadows.clear();
-  layer_of.assign(look.lights.size(), -1);
   for (size_t index = 0; index < look.lights.size(); ++index) {
     const OpaqueLight& light = look.lights[index];
     const bool placed = light.kind != FLK_LIGHT_DIRECTIONAL, spot = light.kind == FLK_LIGHT_SPOT;
@@ -226,21 +217,18 @@ void OpaqueScene::Impl::readyLights(const OpaqueLook& look) {
     c.least_square = light.source_radius > 0.0f ? light.source_radius * light.source_radius : 1e-6f;
     c.cos_outer = std::cos(light.outer_angle);
     c.cone_scale = spot ? 1.0f / std::max(std::cos(light.inner_angle) - c.cos_outer, 1e-6f) : 0.0f;
-    c.layer = -1;
-    if (!light.casts_shadow || mesh_maps.size() >= kMostMaps) {
-      continue;
-    }
-    MeshMap map;
-    if (mapOfMeshes(light, centre, radius, kMapSize, map)) {
-      c.layer = layer_of[index] = static_cast<int>(mesh_maps.size());
+    c.layer = mesh_maps.of_light[index];
+    if (c.layer >= 0) {
+      const MeshMap& map = mesh_maps.maps[static_cast<size_t>(c.layer)];
       c.texel = map.texel;
       c.map_from_world = glm::mat4(map.map_from_world);
-      FlkHostShadow& shadow = host_shadows.emplace_back();
-      std::memcpy(shadow.map_from_world, &map.map_from_world[0][0], sizeof shadow.map_from_world);
-      shadow.layer = static_cast<uint32_t>(c.layer);
-      shadow.rect[2] = shadow.rect[3] = static_cast<float>(kMapSize);
-      mesh_maps.push_back(map);
     }
+  }
+  for (uint32_t layer = 0; layer < mesh_maps.maps.size(); ++layer) {
+    FlkHostShadow& shadow = host_shadows.emplace_back();
+    std::memcpy(shadow.map_from_world, &mesh_maps.maps[layer].map_from_world[0][0], sizeof shadow.map_from_world);
+    shadow.layer = layer;
+    shadow.rect[2] = shadow.rect[3] = static_cast<float>(kMeshMapSize);
   }
 }
 
@@ -260,7 +248,7 @@ bool OpaqueScene::Impl::readyConstants(const Camera& camera, const OpaqueLook& l
   frame.ambient = look.ambient;
   frame.fibres_per_metre = 1.0f / std::max(look.fibre_spacing_m, 1e-9f);
   frame.log2_transmittance = std::log2(std::max(1.0f - look.shadow_opacity, 1e-6f));
-  frame.push = kPush;
+  frame.push = kMeshMapPush;
   std::copy(look.ambient_sh.begin(), look.ambient_sh.end(), frame.ambient_sh);
   std::memcpy(constants.mapped, &frame, sizeof frame);
   return true;
@@ -275,7 +263,7 @@ bool OpaqueScene::prepare(const Camera& camera, double aspect, uint32_t width, u
   i.reversed_depth = camera.reversed_depth;
   i.flat = look.flat;
   i.readyLights(look);
-  return i.readyImages(width, height) && i.readyMaps(static_cast<uint32_t>(i.mesh_maps.size())) && i.readyConstants(camera, look);
+  return i.readyImages(width, height) && i.readyMaps(static_cast<uint32_t>(i.mesh_maps.maps.size())) && i.readyConstants(camera, look);
 }
 
 OpaquePush OpaqueScene::Impl::push() const {
@@ -296,16 +284,16 @@ void OpaqueScene::recordDepth(VkCommandBuffer cmd) {
   draw.beforeDepth(cmd, i.depth);
   draw.recordDepth(cmd, i.depth.view, {i.width, i.height}, i.reversed_depth, i.push(), i.draws);
   draw.afterDepth(cmd, i.depth, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
-  if (i.mesh_maps.empty()) {
+  if (i.mesh_maps.maps.empty()) {
     return;
   }
   draw.beforeDepth(cmd, i.maps);
-  for (size_t layer = 0; layer < i.mesh_maps.size(); ++layer) {
+  for (size_t layer = 0; layer < i.mesh_maps.maps.size(); ++layer) {
     OpaquePush push = i.push();
-    push.clip_from_world = i.mesh_maps[layer].clip_from_world;
-    push.light = i.mesh_maps[layer].light;
-    push.behind = kPush;
-    draw.recordDepth(cmd, i.layers[layer], {kMapSize, kMapSize}, false, push, i.draws);
+    push.clip_from_world = i.mesh_maps.maps[layer].clip_from_world;
+    push.light = i.mesh_maps.maps[layer].light;
+    push.behind = kMeshMapPush;
+    draw.recordDepth(cmd, i.layers[layer], {kMeshMapSize, kMeshMapSize}, false, push, i.draws);
   }
   draw.afterDepth(cmd, i.maps, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
@@ -319,11 +307,11 @@ void OpaqueScene::fillFrame(FlkFrame& frame, std::vector<FlkLight>& lights) cons
   constexpr VkPipelineStageFlags2 readers = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   frame.depth = {i.depth.image, i.depth.view, i.depth.format, VK_SAMPLE_COUNT_1_BIT, i.depth.range, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
                  readers, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-  for (size_t light = 0; light < std::min(lights.size(), i.layer_of.size()); ++light) {
-    if (i.layer_of[light] < 0) {
+  for (size_t light = 0; light < std::min(lights.size(), i.mesh_maps.of_light.size()); ++light) {
+    if (i.mesh_maps.of_light[light] < 0) {
       continue;
     }
-    lights[light].host_shadow = &i.host_shadows[static_cast<size_t>(i.layer_of[light])];
+    lights[light].host_shadow = &i.host_shadows[static_cast<size_t>(i.mesh_maps.of_light[light])];
     frame.host_shadow_maps = {i.maps.image, i.maps.view, i.maps.range, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, readers,
                               VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
   }

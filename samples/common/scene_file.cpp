@@ -198,8 +198,8 @@ SceneLens readLens(const nlohmann::json& json) {
 }
 
 Scene readScene(const nlohmann::json& json) {
-  checkKeys(json, "", {"assets", "meshes", "light", "lights", "ambient", "sky", "ambient_sh", "exposure", "camera", "size",
-                       "background", "head", "method", "k", "k_sort", "tail", "low_shade", "core_taps", "payload", "capture", "show", "near_fade",
+  checkKeys(json, "", {"assets", "light", "lights", "ambient", "sky", "ambient_sh", "exposure", "camera", "size",
+                       "meshes", "background", "head", "method", "k", "k_sort", "tail", "low_shade", "core_taps", "payload", "capture", "show", "near_fade",
                        "lens"});
   Scene scene;
   KeyReader top(json, "");

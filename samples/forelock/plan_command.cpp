@@ -154,7 +154,10 @@ int runPlan(const CLI::App& command, const PlanArguments& arguments) {
   View view;
   check(create(context, viewDesc(), view));
 
-  StagedFrame staged(stage, stageCamera(stage, 0, 1), hairs, 1.0, stage.scene.width, stage.scene.height);
+  const Camera camera = stageCamera(stage, 0, 1);
+  StagedFrame staged(stage, camera, hairs, 1.0, stage.scene.width, stage.scene.height);
+  const FlkHostShadow shadow{};
+  planMeshes(stage, camera, shadow, staged.frame, staged.lights);
   FlkFrame& frame = staged.frame;
   frame.frame_number = 1;
   frame.timestamps = 0;

@@ -69,6 +69,9 @@ bool stageHarmonics(const Stage& stage, Harmonics& harmonics);
 // The bust, where the scene has it, and its meshes.
 std::vector<OpaqueMesh> opaqueMeshes(const Stage& stage);
 
+// What a plan without a device is to know of them. `shadow`: any, that lives as long as the frame.
+void planMeshes(const Stage& stage, const Camera& camera, const FlkHostShadow& shadow, FlkFrame& frame, std::vector<FlkLight>& lights);
+
 // How they are lit: in their own strength, because skin would burn out beside fibres, which reflect little of their light.
 OpaqueLook opaqueLook(const Stage& stage, const Camera& camera);
 

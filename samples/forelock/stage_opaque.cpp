@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "bust.h"
+#include "opaque_maps.h"
 #include "stage.h"
 
 #include <glm/common.hpp>
@@ -61,6 +63,33 @@ OpaqueLook opaqueLook(const Stage& stage, const Camera& camera) {
   look.shadow_opacity = material.shadow_opacity;
   look.flat = scene.display != FLK_DISPLAY_SHADED || scene.coloring != StrandColoring::none;
   return look;
+}
+
+void planMeshes(const Stage& stage, const Camera& camera, const FlkHostShadow& shadow, FlkFrame& frame, std::vector<FlkLight>& lights) {
+  if (!*stage.scene.head && stage.meshes.empty()) {
+    return;
+  }
+  glm::vec3 low(0.0f), high(0.0f);
+  if (*stage.scene.head) {
+    bustBounds(&low[0], &high[0]);
+  } else {
+    low = stage.meshes[0].low, high = stage.meshes[0].high;
+  }
+  for (const StagedMesh& mesh : stage.meshes) {
+    low = glm::min(low, mesh.low), high = glm::max(high, mesh.high);
+  }
+  const auto some = reinterpret_cast<VkImageView>(uintptr_t{1});  // says that there is one
+  frame.depth.view = some;
+  frame.depth.format = VK_FORMAT_D32_SFLOAT;
+  frame.depth.samples = VK_SAMPLE_COUNT_1_BIT;
+  frame.depth.layout = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+  const MeshMaps maps = mapsOfMeshes(opaqueLook(stage, camera).lights, low, high);
+  for (size_t light = 0; light < lights.size(); ++light) {
+    if (maps.of_light[light] >= 0) {
+      lights[light].host_shadow = &shadow;
+      frame.host_shadow_maps.view = some;
+    }
+  }
 }
 
 }  // namespace forelock::samples

@@ -25,7 +25,32 @@ uint32_t bigEndian(const std::string& bytes, size_t at) {
   return value;
 }
 
+// A triangle before the camera of a framed groom, as the text of a .gltf file.
+std::string triangleFile(int mode) {
+  const std::string positions = "AAAAvwAAAL8AAIA+AAAAPwAAAL8AAIA+AAAAAAAAAD8AAIA+";  // (-0.5, -0.5, 0.25), (0.5, -0.5, 0.25), (0, 0.5, 0.25)
+  return writeScratch("triangle" + std::to_string(mode) + ".gltf",
+                      R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0,
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": )" + std::to_string(mode) + R"(}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)" + positions + R"("}]})");
+}
+
 }  // namespace
+
+TEST(PreviewCommand, AMeshHidesHair) {
+  const std::string arguments = smallRecipe() + " --size 64x64 --azimuth 0 ";
+  const nlohmann::json bare = previewOf("bare.png", arguments);
+  const nlohmann::json hidden = previewOf("hidden.png", arguments + "--mesh " + triangleFile(4));
+  ASSERT_TRUE(bare.is_object() && hidden.is_object());
+  EXPECT_LT(hidden.at("hair_pixels"), bare.at("hair_pixels")) << "the triangle is before the head";
+  EXPECT_NE(readAll(scratchFolder() / "bare.png"), readAll(scratchFolder() / "hidden.png"));
+}
+
+TEST(PreviewCommand, HairIsNoMesh) {
+  const auto run = runCommand("preview -o " + (scratchFolder() / "no.png").string() + " " + smallRecipe() + " --mesh " + triangleFile(3));
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("it is hair, not a mesh; name it as ASSET"), std::string::npos) << run.err;
+}
 
 TEST(PreviewCommand, DrawsHairOverTheBust) {
   const nlohmann::json said = previewOf("hair.png", smallRecipe() + " --size 96x64");

@@ -20,6 +20,24 @@ std::string faultOf(const std::string& text) {
 
 }  // namespace
 
+TEST(SceneFile, MeshesAreReadAndWritten) {
+  const Scene scene = parseScene(R"({"meshes": [{"source": "head.glb"}, {"source": "b.gltf", "position": [1, 2, 3], "turn": 90, "scale": 0.5, "color": "#ff0000"}]})");
+  for (const Scene& read : {scene, parseScene(writeScene(scene))}) {
+    ASSERT_EQ(read.meshes.size(), 2u);
+    EXPECT_EQ(read.meshes[0].source, "head.glb");
+    EXPECT_EQ(read.meshes[0].scale, 1.0);
+    EXPECT_FALSE(read.meshes[0].color);
+    EXPECT_EQ(read.meshes[1].position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(read.meshes[1].turn_deg, 90.0);
+    EXPECT_EQ(read.meshes[1].scale, 0.5);
+    ASSERT_TRUE(read.meshes[1].color);
+    EXPECT_EQ(*read.meshes[1].color, glm::dvec3(1, 0, 0));
+  }
+  EXPECT_EQ(faultOf(R"({"meshes": [{}]})"), "meshes[0].source is missing");
+  EXPECT_EQ(faultOf(R"({"meshes": [{"source": "a", "material": {}}]})").rfind("meshes[0].material is no key of a scene", 0), 0u);
+  EXPECT_EQ(faultOf(R"({"meshes": [{"source": "a", "scale": 0}]})").rfind("meshes[0].scale is 0, must be a number in [", 0), 0u);
+}
+
 TEST(SceneFile, SaysKeyValueAndRange) {
   EXPECT_EQ(faultOf("[1]"), "the scene must be an object { ... }");
   EXPECT_EQ(faultOf("{\n\"light\": }").rfind("not valid JSON (line 2", 0), 0u) << faultOf("{\n\"light\": }");

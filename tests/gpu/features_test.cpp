@@ -150,11 +150,11 @@ const std::vector<Feature>& features() {
   static const std::vector<Feature> list = {
       {"sun", [] { return worldOf({tuftSpec()}, {sun(3)}); }, true},
       {"sun, map covered by width", [] { return worldOf({tuftSpec()}, {byWidth(sun(3))}); }},
-      {"sun, map covered by width of strands from four texels to a tenth", [] {
-         HairSpec spec = tuftSpec(8);
+      {"sun, map covered by width of strands from six texels to a tenth", [] {
+         HairSpec spec = tuftSpec(1.5);
          for (std::size_t v = 0; v < spec.strands.radii.size(); ++v) spec.strands.radii[v] *= v % 40 < 20 ? 1.0f : 0.025f;
          spec.material.opacity_root = 0.9f, spec.material.opacity_tip = 0.1f;
-         return worldOf({spec}, {byWidth(sun(3, 256))});
+         return worldOf({spec}, {byWidth(sun(3, 1024))});
        }},
       {"lights by width and by texel, two hairs", [] {
          HairSpec other = tuftSpec(1.5);
@@ -351,7 +351,8 @@ TEST_P(FeatureAt, MatchesItsTwin) {
       EXPECT_GT(d.mean_b, 10) << "the picture is too dark to compare";
       if (HasFailure()) writeFailure(std::string("feature-") + std::to_string(GetParam()) + "-" + variant.name, actual, expected);
     }
-    // The maps themselves, against the reference's own.
+    // The maps themselves, against the reference's own. Covered by width a texel is also off where a strand's turn lies within rounding of its
+    // share: a chance of 1e-6 by fp32, and of half a step of the coded radius, 4.9e-4 sqrt(widest / own), where radii vary.
     const std::vector<reference::LightMaps> own = world->ownMaps();
     for (std::size_t i = 0; i < maps.size(); ++i)
       for (std::size_t face = 0; face < maps[i].faces.size(); ++face) {

@@ -33,8 +33,7 @@ vec2 toTexel(vec3 p, float focal) { return focal > 0.0 ? p.xy / p.z * focal : p.
 // From the texel of p to that of p + d, without the cancellation of two projections.
 vec2 toTexelDelta(vec3 p, vec3 d, float focal) { return focal > 0.0 ? (d.xy - p.xy * (d.z / p.z)) * focal / (p.z + d.z) : d.xy; }
 
-float trueHalfWidth(float radius, float z, FaceConstants f) { return radius / (f.focal > 0.0 ? f.texel * z : f.texel); }
-float texelHalfWidth(float radius, float z, FaceConstants f) { return max(trueHalfWidth(radius, z, f), 0.5); }
+float texelHalfWidth(float radius, float z, FaceConstants f) { return max(radius / (f.focal > 0.0 ? f.texel * z : f.texel), 0.5); }
 
 // Share of d from p, which is not before the near plane, that is not either.
 float litShare(vec3 p, vec3 d, FaceConstants f) {
@@ -92,7 +91,7 @@ bool mapShape(uint index, out MapShape shape, out QuadEnd end_a, out QuadEnd end
   shape.direction = vec3(segment.t, segment.l);
   shape.face = vec3(f.focal, f.range, float(f.size) * 0.5);
 #ifdef FLK_COVER_WIDTH
-  shape.cover = opacity * vec2(trueHalfWidth(ra, a.z, f), trueHalfWidth(rb, b.z, f));
+  shape.cover = opacity * vec2(ra, rb) / (f.focal > 0.0 ? f.texel * vec2(a.z, b.z) : vec2(f.texel));
   if ((face & FLK_FACE_BY_WIDTH) == 0u) shape.cover = 2.0 * vec2(ha, hb);  // more than the whole texel: always kept
   shape.seed = coverSeed(ia, hair_slot);
 #endif

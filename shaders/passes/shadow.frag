@@ -13,16 +13,14 @@ layout(location = 4) flat in vec3 in_face;
 #ifdef FLK_COVER_WIDTH
 layout(location = 5) flat in vec2 in_cover;
 layout(location = 6) flat in uint in_seed;
+#define FLK_COVER_IN , in_cover, in_seed
+#else
+#define FLK_COVER_IN
 #endif
 
 void main() {
   vec2 corner = vec2(FaceList(frame.faces).at[FLK_FACE].offset);
-#ifdef FLK_COVER_WIDTH
-  MapShape shape = MapShape(in_axis, in_lines, in_depth, in_direction, in_face, in_cover, in_seed);
-#else
-  MapShape shape = MapShape(in_axis, in_lines, in_depth, in_direction, in_face);
-#endif
   float value;
-  if (!mapDepth(shape, gl_FragCoord.xy - corner - in_face.z, value)) discard;
+  if (!mapDepth(MapShape(in_axis, in_lines, in_depth, in_direction, in_face FLK_COVER_IN), gl_FragCoord.xy - corner - in_face.z, value)) discard;
   gl_FragDepth = value;
 }

@@ -52,7 +52,7 @@ double lightFalloff(const SceneLight& light, const glm::dvec3& point) {
 
 SceneLight readLight(const nlohmann::json& json, const std::string& path) {
   checkKeys(json, path, {"kind", "azimuth", "elevation", "position", "target", "range", "source_radius_mm",
-                         "inner_angle", "outer_angle", "color", "intensity", "shadow", "shadow_size"});
+                         "inner_angle", "outer_angle", "color", "intensity", "shadow", "shadow_size", "shadow_cover"});
   SceneLight light;
   KeyReader reader(json, path);
   light.kind = readChoice(reader, "kind", lightKindNames(), light.kind);
@@ -88,6 +88,7 @@ SceneLight readLight(const nlohmann::json& json, const std::string& path) {
   light.shadow_size = light.kind == FLK_LIGHT_POINT ? 1024 : 2048;  // amid hair a point light has six
   reader.integer("shadow_size", light.shadow_size, 64, 8192);
   light.shadow_size -= light.shadow_size % 2;
+  light.shadow_cover = readChoice(reader, "shadow_cover", shadowCoverNames(), light.shadow_cover);
   return light;
 }
 
@@ -150,6 +151,7 @@ nlohmann::ordered_json lightJson(const SceneLight& light) {
   json["intensity"] = light.intensity;
   json["shadow"] = light.shadow;
   json["shadow_size"] = light.shadow_size;
+  json["shadow_cover"] = shadowCoverNames()[light.shadow_cover];
   return json;
 }
 
@@ -160,6 +162,11 @@ nlohmann::ordered_json skyJson(const SceneSky& sky) {
 
 const std::vector<std::string>& lightKindNames() {
   static const std::vector<std::string> names{"directional", "point", "spot"};
+  return names;
+}
+
+const std::vector<std::string>& shadowCoverNames() {
+  static const std::vector<std::string> names{"texel", "width"};
   return names;
 }
 

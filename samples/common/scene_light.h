@@ -28,6 +28,7 @@ struct SceneLight {
   double intensity = 1.0;              // times the exposure: what arrives, of point and spot at one metre
   bool shadow = true;
   uint32_t shadow_size = 2048;
+  uint32_t shadow_cover = FLK_SHADOW_COVER_TEXEL;
 };
 
 // Radiance over directions, as a share of the light's: linear from the bottom over the horizon to the top in the sine of
@@ -55,5 +56,6 @@ nlohmann::ordered_json lightJson(const SceneLight& light);
 nlohmann::ordered_json skyJson(const SceneSky& sky);
 
 const std::vector<std::string>& lightKindNames();
+const std::vector<std::string>& shadowCoverNames();
 
 }  // namespace forelock::samples

@@ -31,6 +31,7 @@ StagedFrame::StagedFrame(const Stage& stage, const Camera& camera, const std::ve
     light.outer_angle = static_cast<float>(wanted.outer_angle_deg * kDegree);
     light.casts_shadow = wanted.shadow ? 1 : 0;
     light.shadow_size = wanted.shadow_size;
+    light.shadow_cover = wanted.shadow_cover;
   }
   Harmonics harmonics;
   if (lit && stageHarmonics(stage, harmonics)) {

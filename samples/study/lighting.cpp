@@ -39,6 +39,7 @@ FlkLight sceneLight(const SceneLight& wanted, const Camera& camera) {
   light.outer_angle = float(wanted.outer_angle_deg * kDegree);
   light.casts_shadow = wanted.shadow;
   light.shadow_size = wanted.shadow_size;
+  light.shadow_cover = wanted.shadow_cover;
   return light;
 }
 

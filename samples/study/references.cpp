@@ -31,6 +31,7 @@ Hash sceneHash(const Twin& twin, const Matrices& matrices, const View& view) {
       hash.add(v);
   }
   for (const reference::Light& l : twin.scene.lights) {
+    if (l.cover_width) hash.add(l.cover_width);  // references that were kept before there was a choice stay found
     hash.add(uint32_t(l.kind)).add(l.shadow).add(l.shadow_size).add(std::span<const double>(l.radiance, 3));
     for (const reference::Vec3& v : {l.direction_to_light, l.position, l.axis}) hash.add(v.x).add(v.y).add(v.z);
     for (const double v : {l.range, l.source_radius, l.inner_angle, l.outer_angle}) hash.add(v);

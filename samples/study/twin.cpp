@@ -112,6 +112,7 @@ void setTwinLights(Twin& twin, const Lighting& lighting) {
     l.inner_angle = double(light.inner_angle), l.outer_angle = double(light.outer_angle);
     l.shadow = light.casts_shadow != 0;
     l.shadow_size = int(light.shadow_size);
+    l.cover_width = light.shadow_cover == FLK_SHADOW_COVER_WIDTH;
   }
   for (int c = 0; c < 3; ++c) twin.scene.ambient[c] = double(lighting.ambient[c]);
   twin.scene.ambient_sh.reset();

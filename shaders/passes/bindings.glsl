@@ -51,7 +51,7 @@ layout(push_constant, scalar) uniform PushConstants {
   uint hair_slot;
   uint segment_count;     // of a dispatch, from `first_segment`
   uint first_segment;
-  uint face;              // of a shadow pass
+  uint face;              // of a shadow pass; with FLK_COVER_WIDTH perhaps and FLK_FACE_BY_WIDTH
   mat4x3 map_from_hair;   // of a shadow pass
 };
 #endif

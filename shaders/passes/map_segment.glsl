@@ -1,9 +1,15 @@
 // A strand segment as a quad of a shadow map, at least one texel wide (docs/methods.md section 4), for either rasteriser.
-// Included after bindings.glsl.
+// Included after bindings.glsl. FLK_COVER_WIDTH: for frames with maps in which a strand keeps a share of its texels.
 #ifndef FORELOCK_PASSES_MAP_SEGMENT
 #define FORELOCK_PASSES_MAP_SEGMENT
 #include "../lib/strand_quad.glsl"
 #include "segment_input.glsl"
+#ifdef FLK_COVER_WIDTH
+#include "../lib/shadow_cover.glsl"
+#define FLK_FACE (face & ~FLK_FACE_BY_WIDTH)
+#else
+#define FLK_FACE face
+#endif
 
 layout(constant_id = FLK_SPEC_FACES) const uint kFaces = uint(FLK_FACES_ORTHOGRAPHIC);
 
@@ -13,6 +19,10 @@ struct MapShape {
   vec4 depth;      // depths (metre; perspective: along the axis), half widths (texel)
   vec3 direction;  // unit, a to b; length (texel)
   vec3 face;       // focal length (0: orthographic), metre of a full depth value, half a side (texel)
+#ifdef FLK_COVER_WIDTH
+  vec2 cover;      // half widths (texel) that would cover as much if they were opaque
+  uint seed;       // of the texels that are kept
+#endif
 };
 
 // map_from_hair: texels from the map's middle and metre, or in perspective metre in the light's axes.
@@ -34,7 +44,7 @@ FlatSegment toFlatMap(vec3 a, vec3 b, vec3 d, float focal) { return flatSegment(
 
 // False: it makes no quad.
 bool mapShape(uint index, out MapShape shape, out QuadEnd end_a, out QuadEnd end_b) {
-  FaceConstants f = FaceList(frame.faces).at[face];
+  FaceConstants f = FaceList(frame.faces).at[FLK_FACE];
   if ((kFaces & ~uint(FLK_FACES_ORTHOGRAPHIC)) == 0u) f.focal = 0.0;
   Segment source = readSegment(index);
   uint ia = source.vertex;
@@ -42,6 +52,10 @@ bool mapShape(uint index, out MapShape shape, out QuadEnd end_a, out QuadEnd end
   vec3 d_before = source.root ? vec3(0.0) : mapDelta(ia - 1u, ia), d_after = source.tip ? vec3(0.0) : mapDelta(ia + 1u, ia + 2u);
   float radius_max = frame.hairs[hair_slot].radius_max;
   float ra = attributeRadius(attributesOf(ia), radius_max), rb = attributeRadius(attributesOf(ia + 1u), radius_max);
+#ifdef FLK_COVER_WIDTH
+  vec2 along = vec2(attributeFraction(attributesOf(ia)), attributeFraction(attributesOf(ia + 1u)));
+  vec2 opacity = mix(vec2(frame.hairs[hair_slot].opacity_root), vec2(frame.hairs[hair_slot].opacity_tip), along);
+#endif
   bool cut_a = false, cut_b = false;
   if (f.focal > 0.0) {
     cut_a = a.z < f.near, cut_b = b.z < f.near;
@@ -50,6 +64,10 @@ bool mapShape(uint index, out MapShape shape, out QuadEnd end_a, out QuadEnd end
       float u = cut_a ? 1.0 - litShare(b, -d, f) : litShare(a, d, f);
       vec3 p = vec3(mix(a.xy, b.xy, u), f.near);
       float r = mix(ra, rb, u);
+#ifdef FLK_COVER_WIDTH
+      if (cut_a) opacity.x = mix(opacity.x, opacity.y, u);
+      else opacity.y = mix(opacity.x, opacity.y, u);
+#endif
       d *= cut_a ? 1.0 - u : u;
       if (cut_a) a = p, ra = r;
       else b = p, rb = r;
@@ -72,6 +90,11 @@ bool mapShape(uint index, out MapShape shape, out QuadEnd end_a, out QuadEnd end
   shape.depth = vec4(a.z, b.z, ha, hb);
   shape.direction = vec3(segment.t, segment.l);
   shape.face = vec3(f.focal, f.range, float(f.size) * 0.5);
+#ifdef FLK_COVER_WIDTH
+  shape.cover = opacity * vec2(ra, rb) / (f.focal > 0.0 ? f.texel * vec2(a.z, b.z) : vec2(f.texel));
+  if ((face & FLK_FACE_BY_WIDTH) == 0u) shape.cover = 2.0 * vec2(ha, hb);  // more than the whole texel: always kept
+  shape.seed = coverSeed(ia, hair_slot);
+#endif
   return true;
 }
 
@@ -88,6 +111,10 @@ bool mapDepth(MapShape shape, vec2 center, out float value) {
     depth = z * sqrt(1.0 + dot(at, at));
   }
   value = clamp(depth / shape.face.y, 0.0, 1.0);
+#ifdef FLK_COVER_WIDTH
+  float share = mix(shape.cover.x, shape.cover.y, v) / mix(shape.depth.z, shape.depth.w, v);  // drawn half widths >= 1/2
+  if (!coverKeeps(shape.seed, uvec2(center + shape.face.z), share)) return false;
+#endif
   return abs(x) <= mix(shape.depth.z, shape.depth.w, v) &&
          betweenLines(center, shape.axis.xy, shape.axis.zw, shape.lines.xy, shape.lines.zw);
 }

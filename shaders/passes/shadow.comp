@@ -15,8 +15,8 @@ shared MapShape shapes[kWalkSegments];
 void main() {
   uint lane = gl_LocalInvocationID.x;
   uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kWalkSegments + lane;
-  ivec2 corner = ivec2(FaceList(frame.faces).at[face].offset);
-  int size = int(FaceList(frame.faces).at[face].size);
+  ivec2 corner = ivec2(FaceList(frame.faces).at[FLK_FACE].offset);
+  int size = int(FaceList(frame.faces).at[FLK_FACE].size);
   float middle = float(size) * 0.5;
   ivec4 rect = ivec4(0, 0, size, size);
   QuadWalk walk = emptyWalk();

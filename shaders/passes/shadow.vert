@@ -10,6 +10,10 @@ layout(location = 1) flat out vec4 out_lines;
 layout(location = 2) flat out vec4 out_depth;
 layout(location = 3) flat out vec3 out_direction;
 layout(location = 4) flat out vec3 out_face;
+#ifdef FLK_COVER_WIDTH
+layout(location = 5) flat out vec2 out_cover;
+layout(location = 6) flat out uint out_seed;
+#endif
 
 void main() {
   MapShape shape;
@@ -29,4 +33,8 @@ void main() {
   out_depth = shape.depth;
   out_direction = shape.direction;
   out_face = shape.face;
+#ifdef FLK_COVER_WIDTH
+  out_cover = shape.cover;
+  out_seed = shape.seed;
+#endif
 }

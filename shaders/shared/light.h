@@ -30,6 +30,8 @@ struct LightConstants {
   uint visibility_layer;  // FLK_NO_LAYER: none
 };
 
+#define FLK_FACE_BY_WIDTH 0x80000000u // added to the index of a map that strands cover by their width
+
 // A hair shadow map: a rectangle of the atlas.
 struct FaceConstants {
   mat4x3 map_from_view;   // orthographic: x, y in texels from the map's middle, z in metre from its front; perspective: metre, z along the axis

@@ -23,6 +23,10 @@ TEST_F(HostileFeatures, theWholeFrameIsGood) {
   };
   fine("as it is", [](FlkFrame&) {});
   for (const uint32_t size : {0u, 64u, 1024u}) fine("map size", [&](FlkFrame&) { scene.lights[0].shadow_size = size; });
+  fine("maps covered by width", [&](FlkFrame&) {
+    for (FlkLight& light : scene.lights) light.shadow_cover = FLK_SHADOW_COVER_WIDTH;
+  });
+  fine("one map of several covered by width", [&](FlkFrame&) { scene.lights[2].shadow_cover = FLK_SHADOW_COVER_WIDTH; });
   fine("no range, no radius", [&](FlkFrame&) { scene.lights[1].range = 0.0f, scene.lights[1].source_radius = 0.0f; });
   fine("a spot of a half space", [&](FlkFrame&) { scene.lights[2].inner_angle = 0.0f, scene.lights[2].outer_angle = 1.57079632f; });
   fine("a spot like a ray", [&](FlkFrame&) { scene.lights[2].inner_angle = 0.0f, scene.lights[2].outer_angle = 1e-38f; });
@@ -96,6 +100,8 @@ TEST_F(HostileFeatures, lightsOfThreeKinds) {
       {"NaN outer", kInvalid, [this](FlkFrame&) { scene.lights[2].outer_angle = kNan; }},
       {"a spot without a direction", kInvalid, [this](FlkFrame&) { for (float& d : scene.lights[2].direction) d = 0.0f; }},
       {"radiance of the last", kInvalid, [this](FlkFrame&) { scene.lights[4].radiance[1] = kInfinity; }},
+      {"shadow_cover", kInvalid, [this](FlkFrame&) { scene.lights[0].shadow_cover = 2; }},
+      {"largest shadow_cover", kInvalid, [this](FlkFrame&) { scene.lights[3].shadow_cover = UINT32_MAX; }},
       {"visibility layer", kInvalid, [this](FlkFrame&) { scene.lights[2].visibility = 65537; }},
   });
 }

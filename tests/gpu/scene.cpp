@@ -181,7 +181,7 @@ float Scene::widthScaleFor(double width_px) const {
   return float(width_px / (2.0 * double(thickest) * scale));
 }
 
-void Scene::setLight(const double to_light_vs[3], double radiance, uint32_t shadow_size) {
+void Scene::setLight(const double to_light_vs[3], double radiance, uint32_t shadow_size, uint32_t shadow_cover) {
   // View to world: the transpose of the rotation.
   const double* v = camera.view_from_world;
   double d[3];
@@ -191,6 +191,7 @@ void Scene::setLight(const double to_light_vs[3], double radiance, uint32_t shad
   for (int i = 0; i < 3; ++i) light_.direction[i] = float(d[i]), light_.radiance[i] = float(radiance);
   light_.casts_shadow = shadow_size != 0;
   light_.shadow_size = shadow_size;
+  light_.shadow_cover = shadow_cover;
   lit_ = true;
   reference::Light twin;
   double l = 0;
@@ -200,6 +201,7 @@ void Scene::setLight(const double to_light_vs[3], double radiance, uint32_t shad
   for (int i = 0; i < 3; ++i) twin.radiance[i] = light_.radiance[i];
   twin.shadow = shadow_size != 0;
   twin.shadow_size = int(shadow_size);
+  twin.cover_width = shadow_cover == FLK_SHADOW_COVER_WIDTH;
   reference_scene.lights = {twin};
 }
 

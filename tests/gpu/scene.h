@@ -57,7 +57,7 @@ public:
   Scene(const Scene&) = delete;
 
   // A light in view space directions; `shadow_size` 0: casts no shadow.
-  void setLight(const double to_light_vs[3], double radiance, uint32_t shadow_size);
+  void setLight(const double to_light_vs[3], double radiance, uint32_t shadow_size, uint32_t shadow_cover = FLK_SHADOW_COVER_TEXEL);
   void noLight();
   void setWidthScale(float scale);
   // The width scale that makes the thickest strand `width_px` wide at the view's target.

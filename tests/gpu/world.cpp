@@ -147,6 +147,7 @@ void World::addLight(const FlkLight& light) {
   l.source_radius = light.source_radius > 0 ? double(light.source_radius) : 1e-3;
   l.inner_angle = light.inner_angle, l.outer_angle = light.outer_angle;
   l.shadow = light.casts_shadow, l.shadow_size = light.shadow_size ? int(light.shadow_size) : 1024;
+  l.cover_width = light.shadow_cover == FLK_SHADOW_COVER_WIDTH;
   if (light.host_shadow) {
     kept_.push_back(std::make_unique<FlkHostShadow>(*light.host_shadow));
     given.host_shadow = kept_.back().get();

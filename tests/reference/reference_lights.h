@@ -23,6 +23,7 @@ struct ShadowMap {
   double focal = 0;       // texels
   double near_depth = 0;  // metre along z: what is nearer casts no shadow and gets none
   Vec3 origin{};          // the light, world
+  bool cover_width = false;
 };
 
 // None (all lit), one, or six in the order +x, -x, +y, -y, +z, -z of the world.

@@ -91,6 +91,7 @@ struct Light {
   double radiance[3] = {1, 1, 1};
   bool shadow = false;
   int shadow_size = 1024;  // texels along an edge
+  bool cover_width = false;  // strands keep of a texel's chances what they cover of it
   LightKind kind = LightKind::directional;
   Vec3 position{};            // point, spot: world, metre
   double range = 0;           // metre, where the window closes; 0: none

@@ -76,7 +76,9 @@ ShadowMap perspectiveFrame(const Sphere& sphere, Vec3 origin, Vec3 axis, double 
   return map;
 }
 
-LightMaps lightFrames(const Light& light, const Sphere& sphere) {
+namespace {
+
+LightMaps emptyFrames(const Light& light, const Sphere& sphere) {
   LightMaps maps;
   const int size = light.shadow_size;
   if (!light.shadow || !(sphere.radius > 0)) return maps;
@@ -105,6 +107,14 @@ LightMaps lightFrames(const Light& light, const Sphere& sphere) {
   for (const Vec3& z : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
     maps.faces.push_back(perspectiveFrame(sphere, light.position, z, std::numbers::pi / 4, size, 1 / std::numbers::sqrt3));
   }
+  return maps;
+}
+
+}  // namespace
+
+LightMaps lightFrames(const Light& light, const Sphere& sphere) {
+  LightMaps maps = emptyFrames(light, sphere);
+  for (ShadowMap& map : maps.faces) map.cover_width = light.cover_width;
   return maps;
 }
 

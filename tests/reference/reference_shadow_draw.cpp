@@ -7,6 +7,7 @@ namespace {
 struct MapVertex {
   Vec3 v;  // in the map's axes, from the sphere's middle or the light
   double radius = 0;
+  double opacity = 1;
 };
 
 struct MapPoint {
@@ -46,10 +47,26 @@ bool cutAtNear(const ShadowMap& map, PlaneSegment& plane, MapEnds& ends) {
   if (plane.cut_a || plane.cut_b) {
     const double t = (near_depth - za) / (zb - za);
     MapVertex& cut = plane.cut_a ? ends.a : ends.b;
-    cut = {mix(ends.a.v, ends.b.v, t), mix(ends.a.radius, ends.b.radius, t)};
+    cut = {mix(ends.a.v, ends.b.v, t), mix(ends.a.radius, ends.b.radius, t), mix(ends.a.opacity, ends.b.opacity, t)};
     cut.v.z = near_depth;
   }
   return true;
+}
+
+// Coverage by width: one number a segment, by 32-bit arithmetic that wraps.
+uint32_t coverSeed(size_t vertex, uint32_t slot) {
+  uint32_t h = uint32_t(vertex) * 64 + slot;
+  h ^= h / 65536;
+  h *= 0x7FEB352D;
+  h ^= h / 32768;
+  h *= 0x846CA68B;
+  h ^= h / 65536;
+  return h;
+}
+
+bool coverKeeps(uint32_t seed, int column, int row, double share) {
+  const uint32_t turn = seed + uint32_t(column) * 3242174889u + uint32_t(row) * 2447445414u;
+  return turn / 256 < uint32_t(std::floor(share * 16777216 + 0.5));
 }
 
 }  // namespace
@@ -59,17 +76,20 @@ void drawShadowMap(ShadowMap& map, const Scene& scene) {
   const Vec3 from = map.focal > 0 ? map.origin : map.center;
   std::vector<PlaneSegment> planes;
   std::vector<MapEnds> ends;
+  std::vector<Vec2> covers;  // half widths at both ends that would cover as much if they were opaque
   for (const Hair& hair : scene.hairs) {
     const Strands& strands = hair.strands;
     auto vertexAt = [&](size_t v) {
       const Vec3 q = strands.positions[v] - from;
-      return MapVertex{{dot(q, map.x), dot(q, map.y), dot(q, map.z)}, strands.radii[v] * hair.material.width_scale};
+      return MapVertex{{dot(q, map.x), dot(q, map.y), dot(q, map.z)}, strands.radii[v] * hair.material.width_scale,
+                       mix(hair.material.opacity_root, hair.material.opacity_tip, strands.fraction[v])};
     };
     for (size_t strand = 0; strand < strands.count(); ++strand) {
       const size_t begin = strands.first_vertex[strand], end = strands.first_vertex[strand + 1];
       if (end < begin + 2) continue;
       planes.assign(end - begin - 1, {});
       ends.assign(end - begin - 1, {});
+      covers.assign(end - begin - 1, {});
       for (size_t i = 0; i < planes.size(); ++i) {
         ends[i] = {vertexAt(begin + i), vertexAt(begin + i + 1)};
         if (!cutAtNear(map, planes[i], ends[i])) continue;
@@ -79,6 +99,7 @@ void drawShadowMap(ShadowMap& map, const Scene& scene) {
         planes[i].b = b.at;
         planes[i].h_a = std::max(ends[i].a.radius / a.texel, 0.5);
         planes[i].h_b = std::max(ends[i].b.radius / b.texel, 0.5);
+        covers[i] = {ends[i].a.opacity * ends[i].a.radius / a.texel, ends[i].b.opacity * ends[i].b.radius / b.texel};
         setDirection(planes[i]);
       }
       shapeStrand(planes, true);
@@ -86,7 +107,12 @@ void drawShadowMap(ShadowMap& map, const Scene& scene) {
         if (!planes[i].exists) continue;
         forEachCell(planes[i].corner, map.size, 0, map.size, [&](int column, int row) {
           const double y = dot(Vec2{column + 0.5, row + 0.5} - planes[i].a, planes[i].t);
-          const double d = axisDepth(map, planes[i], ends[i], std::clamp(y / planes[i].l, 0.0, 1.0));
+          const double v = std::clamp(y / planes[i].l, 0.0, 1.0);
+          if (map.cover_width) {
+            const double share = mix(covers[i].x, covers[i].y, v) / mix(planes[i].h_a, planes[i].h_b, v);
+            if (!coverKeeps(coverSeed(begin + i, hair.slot), column, row, share)) return;
+          }
+          const double d = axisDepth(map, planes[i], ends[i], v);
           float& stored = map.depth[size_t(row) * size_t(map.size) + size_t(column)];
           stored = std::min(stored, float(d));
         });

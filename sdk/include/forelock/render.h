@@ -262,6 +262,11 @@ typedef struct FlkHostShadow {
 } FlkHostShadow;
 
 enum { FLK_LIGHT_DIRECTIONAL = 0, FLK_LIGHT_POINT = 1, FLK_LIGHT_SPOT = 2 };
+enum { /* how a strand covers a hair shadow map: docs/methods.md section 4 */
+  FLK_SHADOW_COVER_TEXEL = 0, /* every texel that it touches, as in the paper: the coarser the map, the darker the hair */
+  FLK_SHADOW_COVER_WIDTH = 1  /* as many of them as its width and opacity ask for, picked at random: the same light whatever the
+                                 map's size, and for fewer, wider strands. The pick follows strands and texels, and stays */
+};
 typedef struct FlkLight {
   float direction[3];      /* directional: from the scene to the light; spot: against its axis, back to the light. World space;
                               normalised here; not zero. Point: ignored */
@@ -276,6 +281,7 @@ typedef struct FlkLight {
   float inner_angle, outer_angle; /* spot: half angles of full light and of none (radian) 0 <= inner < outer <= pi / 2 */
   const FlkHostShadow* host_shadow; /* optional: its map of FlkFrame.host_shadow_maps */
   uint32_t visibility;     /* optional: 1 + the light's layer of FlkFrame.host_visibility; 0: none */
+  uint32_t shadow_cover;   /* FLK_SHADOW_COVER_... of its hair shadow map; optional: 0 is FLK_SHADOW_COVER_TEXEL */
 } FlkLight;
 
 /* Which lights reach which pixels (docs/methods.md section 4), as an engine with tiled or clustered lighting has them. */

@@ -81,6 +81,7 @@ const char* lightFault(const FlkLight& light) {
   if (light.kind == FLK_LIGHT_SPOT &&
       !(light.inner_angle >= 0 && light.inner_angle < light.outer_angle && light.outer_angle <= 1.5708f))
     return "light.inner_angle and outer_angle must be 0 <= inner < outer <= pi / 2";
+  if (light.shadow_cover > FLK_SHADOW_COVER_WIDTH) return "light.shadow_cover is none of FLK_SHADOW_COVER_...";
   if (light.visibility > 65536) return "light.visibility must be at most 65536";
   return light.host_shadow ? hostShadowFault(*light.host_shadow) : nullptr;
 }

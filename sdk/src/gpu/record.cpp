@@ -124,7 +124,7 @@ void View::drawHair(VkCommandBuffer cmd, const Frame& frame, uint32_t index, con
   HairPush push;
   push.slot = index;
   push.segment_count = hair.segment_count;
-  push.face = face_index;
+  push.face = face_index | (face && face->cover_width ? FLK_FACE_BY_WIDTH : 0u);
   if (face) {
     const Mat4 map = face->map_from_world * frame.world_from_hair[index];
     for (int column = 0; column < 4; ++column)

@@ -18,6 +18,7 @@ LightFacts lightFacts(const FlkLight& light) {
   LightFacts facts;
   facts.casts_shadow = light.casts_shadow != 0;
   facts.shadow_size = light.shadow_size ? light.shadow_size : 1024;
+  facts.cover_width = light.shadow_cover == FLK_SHADOW_COVER_WIDTH;
   facts.kind = LightKind(light.kind);
   if (light.kind != FLK_LIGHT_POINT) facts.direction = normalize({light.direction[0], light.direction[1], light.direction[2]});
   facts.position = {light.position[0], light.position[1], light.position[2]};

@@ -37,6 +37,7 @@ enum class LightKind : uint8_t { directional, point, spot };
 struct LightFacts {
   bool casts_shadow = false;
   uint32_t shadow_size = 1024;
+  bool cover_width = false;    // its maps are covered by width
   LightKind kind = LightKind::directional;
   Vec3 direction{0, 0, 1};     // unit, to the light (directional), against the axis (spot); world
   Vec3 position{};             // world

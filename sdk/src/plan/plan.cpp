@@ -66,8 +66,11 @@ void planLights(const FrameFacts& facts, FramePlan& plan) {
   }
   plan.fault = layoutShadowMaps(facts.lights, facts.hairs, facts.image_limit, plan.shadow);
   if (!plan.hasShadow()) plan.omissions.add("the shadow pass and its map: no light casts hair shadows");
-  for (const ShadowFace& face : plan.shadow.faces)
+  for (const ShadowFace& face : plan.shadow.faces) {
     plan.face_kinds |= face.focal == 0 ? FLK_FACES_ORTHOGRAPHIC : face.face ? FLK_FACES_CUBE : FLK_FACES_PERSPECTIVE;
+    plan.cover_width |= face.cover_width;
+  }
+  if (plan.hasShadow() && !plan.cover_width) plan.omissions.add("coverage by width in shadow maps: no light asks for it");
   if (!plan.host_light) plan.omissions.add("the host's shadows: no light has any");
   if (facts.light_tiles) {
     plan.light_mode = FLK_LIGHTS_TILES;

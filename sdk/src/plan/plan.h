@@ -71,6 +71,7 @@ struct FramePlan {
   uint32_t light_count = 0;
   uint32_t light_kinds = 0;  // bits of LightKind
   uint32_t face_kinds = 0;   // FLK_FACES_...
+  bool cover_width = false;  // a shadow map is covered by width
   uint32_t host_light = 0;   // FLK_HOST_...
   uint32_t modifiers = 0;
   uint32_t outputs = 0;

@@ -69,7 +69,7 @@ ShadowFace coneFace(const Sphere& sphere, const Vec3& position, const Vec3& axis
 bool addFaces(const LightFacts& light, uint32_t index, const Sphere& sphere, ShadowLayout& layout) {
   auto add = [&](ShadowFace face, uint32_t number) {
     if (layout.faces.count == kMaxFaces) return false;
-    face.light = index, face.face = number;
+    face.light = index, face.face = number, face.cover_width = light.cover_width;
     layout.faces.add(face);
     return true;
   };

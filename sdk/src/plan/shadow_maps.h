@@ -17,6 +17,7 @@ struct ShadowFace {
   uint32_t size = 0;  // texels a side
   uint32_t x = 0, y = 0;  // in the image
   uint32_t light = 0, face = 0;
+  bool cover_width = false;
 };
 
 struct ShadowLayout {

@@ -82,6 +82,7 @@ TEST(SceneFile, SaysWhatIsWrongWithLights) {
   EXPECT_EQ(spot(R"("inner_angle": 30, "outer_angle": 30)"),
             "lights[0].inner_angle is 30, must be less than outer_angle");
   EXPECT_EQ(spot(R"("intensity": -1)"), "lights[0].intensity is -1, must be a number in [0, 1e+06]");
+  EXPECT_EQ(spot(R"("shadow_cover": "area")"), "lights[0].shadow_cover is \"area\", must be one of texel, width");
   EXPECT_EQ(spot(R"("shadow_size": 63)"), "lights[0].shadow_size is 63, must be a whole number in [64, 8192]");
   EXPECT_EQ(faultOf(R"({"sky": {"top": "#ffffff"}})"), "sky.bottom is missing");
   EXPECT_EQ(faultOf(R"({"sky": {"top": "#ffffff", "bottom": "blue"}})"),
@@ -145,6 +146,8 @@ TEST(SceneFile, ReadsLights) {
   EXPECT_EQ(scene.lights[2].inner_angle_deg, 8.0) << "two thirds, where 20 degrees are too many";
   EXPECT_EQ(scene.lights[2].color, glm::dvec3(1, 0, 0));
   EXPECT_FALSE(scene.lights[2].shadow);
+  EXPECT_EQ(scene.lights[2].shadow_cover, static_cast<uint32_t>(FLK_SHADOW_COVER_TEXEL));
+  EXPECT_EQ(parseScene(R"({"light": {"shadow_cover": "width"}})").lights[0].shadow_cover, static_cast<uint32_t>(FLK_SHADOW_COVER_WIDTH));
 }
 
 TEST(SceneFile, FallsOffAsTheMethodsSay) {
@@ -246,14 +249,14 @@ TEST(SceneFile, WrittenScenesReadBack) {
       "material": {"tip_color": "#d8a860", "tip_blend": 0.75}}],
       "lights": [{"intensity": 0.5}, {"kind": "point", "position": [1, 2, 3], "range": 4, "source_radius_mm": 30},
                  {"kind": "spot", "position": [0, 1, 0], "target": [0, 0, 0.5], "inner_angle": 3, "outer_angle": 40,
-                  "color": "#9fc6ff", "shadow": false, "shadow_size": 512}],
+                  "color": "#9fc6ff", "shadow": false, "shadow_size": 512, "shadow_cover": "width"}],
       "sky": {"top": "#4a5a76", "horizon": "#808080", "bottom": "#2a2624", "intensity": 0.3},
       "method": "hard", "tail": "list", "low_shade": "lobes", "core_taps": 4, "capture": "compute", "near_fade": {"start_m": 0.5, "end_m": 0.75},
       "lens": {"center": [0.25, 0.75], "radius": 0.2, "feather": 0.1, "inside": 0.5}})";
   const std::string rewritten = writeScene(parseScene(more));
   EXPECT_EQ(writeScene(parseScene(rewritten)), rewritten);
   for (const char* kept : {"\"scalp.png\"", "\"ignore_colors\": true", "\"points_per_strand\": 100", "\"spread_tip\": 0.25", "#d8a860", "\"range\": 4",
-                           "\"outer_angle\": 40", "#4a5a76", "\"hard\"", "\"list\"", "\"compute\"", "\"end_m\": 0.75",
+                           "\"outer_angle\": 40", "#4a5a76", "\"hard\"", "\"list\"", "\"compute\"", "\"shadow_cover\": \"width\"", "\"end_m\": 0.75",
                            "\"inside\": 0.5"}) {
     EXPECT_NE(rewritten.find(kept), std::string::npos) << kept << " is not in " << rewritten;
   }

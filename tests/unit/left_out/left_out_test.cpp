@@ -95,6 +95,7 @@ const std::vector<Feature>& features() {
   static const std::vector<Feature> list = {
       {"light", nullptr, [](Scene& s) { s.lights.push_back(someLight(FLK_LIGHT_DIRECTIONAL)); }},
       {"hair shadows of the light", nullptr, [](Scene& s) { s.lights[0].casts_shadow = 1; }},
+      {"hair shadows covered by width (off: by texel)", nullptr, [](Scene& s) { s.lights[0].casts_shadow = 1, s.lights[0].shadow_cover = FLK_SHADOW_COVER_WIDTH; }},
       {"a second light", nullptr, [](Scene& s) { s.lights.push_back(someLight(FLK_LIGHT_DIRECTIONAL)); }},
       {"a third light, a point light", nullptr, [](Scene& s) { s.lights.insert(s.lights.end(), 2, someLight(FLK_LIGHT_POINT)); }},
       {"a spot with hair shadows", nullptr, [](Scene& s) { s.lights.push_back(someLight(FLK_LIGHT_SPOT)), s.lights.back().casts_shadow = 1; }},
@@ -284,8 +285,10 @@ std::pair<std::function<void(Scene&)>, std::function<void(Scene&)>> scenesOf(std
   const auto lit = features()[0].on;
   if (name == "full shading of the core (off: all_low)")
     return {[lit](Scene& s) { lit(s), s.frame.method = FLK_METHOD_ALL_LOW; }, lit};
+  if (name == "hair shadows covered by width (off: by texel)")
+    return {[lit](Scene& s) { lit(s), s.lights[0].casts_shadow = 1; }, [lit, on = feature.on](Scene& s) { lit(s), on(s); }};
   if (name == "a third light, a point light") {
-    const auto two = features()[2].on;
+    const auto two = features()[3].on;
     return {[=](Scene& s) { lit(s), two(s); }, [=](Scene& s) { lit(s), two(s), s.lights.push_back(someLight(FLK_LIGHT_POINT)); }};
   }
   return {lit, [lit, on = feature.on](Scene& s) { lit(s), on(s); }};

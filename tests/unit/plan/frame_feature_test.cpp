@@ -286,6 +286,26 @@ TEST_F(FrameFeature, EveryFaceIsDrawnOfEveryHair) {
   }
 }
 
+TEST_F(FrameFeature, CoverageByWidthOnlyWhereAMapHasIt) {
+  EXPECT_FALSE(plan().cover_width);
+  EXPECT_TRUE(omits(plan(), "coverage by width"));
+  lights.push_back(lights[0]);
+  lights[1].cover_width = true;
+  FramePlan p = plan();
+  EXPECT_TRUE(p.cover_width);
+  EXPECT_FALSE(omits(p, "coverage by width"));
+  EXPECT_FALSE(p.shadow.faces.items[0].cover_width);
+  EXPECT_TRUE(p.shadow.faces.items[1].cover_width);
+  lights[1].kind = LightKind::point, lights[1].position = {0, 0, -2};
+  p = plan();
+  ASSERT_EQ(p.shadow.faces.count, 7u);
+  for (std::size_t i = 1; i < 7; ++i) EXPECT_TRUE(p.shadow.faces.items[i].cover_width);
+  lights[1].casts_shadow = false;  // without a map nothing is covered
+  EXPECT_FALSE(plan().cover_width);
+  lights[0].casts_shadow = false;
+  EXPECT_FALSE(omits(plan(), "coverage by width")) << "there is no map";
+}
+
 TEST_F(FrameFeature, TooManyMapsAreAFault) {
   lights.assign(97, lights[0]);
   EXPECT_NE(plan().fault, nullptr);

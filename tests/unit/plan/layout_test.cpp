@@ -7,6 +7,7 @@
 #include "shaders_spv/prepare_spv.h"
 #include "shaders_spv/resolve_shadow_host_light_spv.h"
 #include "shaders_spv/shadow_compute_spv.h"
+#include "shaders_spv/shadow_width_compute_spv.h"
 
 #include <gtest/gtest.h>
 
@@ -116,7 +117,7 @@ const std::vector<Member> kSourceMembers = [] {
 #undef FLK_AT
 
 TEST(SharedLayout, FrameAgreesWithTheShaders) {
-  const std::span<const uint32_t> modules[] = {capture_vert_spv, resolve_shadow_host_light_spv, shadow_compute_spv};
+  const std::span<const uint32_t> modules[] = {capture_vert_spv, resolve_shadow_host_light_spv, shadow_compute_spv, shadow_width_compute_spv};
   for (const auto module : modules) {
     const Layouts shader = layoutsOf(module);
     expectSame(shader, "FrameConstants", sizeof(gpu::FrameConstants), kFrameMembers);
@@ -145,10 +146,11 @@ TEST(SharedLayout, StrandSourcesAgreeWithTheShader) {
 
 // The push constants of every pass lie within the 64 bytes of the pipeline layout, where record.cpp writes them.
 TEST(SharedLayout, PushConstants) {
-  const Layouts draw = layoutsOf(shadow_compute_spv), prepare = layoutsOf(prepare_spv);
+  const Layouts draw = layoutsOf(shadow_compute_spv), by_width = layoutsOf(shadow_width_compute_spv), prepare = layoutsOf(prepare_spv);
   const std::pair<const char*, uint32_t> hair[] = {
       {"hair_slot", 0}, {"segment_count", 4}, {"first_segment", 8}, {"face", 12}, {"map_from_hair", 16}};
-  for (const auto& [member, offset] : hair) EXPECT_EQ(draw.offsets.at(std::string("PushConstants.") + member), offset) << member;
+  for (const auto& [member, offset] : hair)
+    for (const Layouts* shader : {&draw, &by_width}) EXPECT_EQ(shader->offsets.at(std::string("PushConstants.") + member), offset) << member;
   const std::pair<const char*, uint32_t> moved[] = {{"sources", 0},       {"host_positions", 8}, {"attributes", 16}, {"positions", 24},
                                                     {"strand_count", 32}, {"stride", 36},        {"spread_tip", 40}};
   for (const auto& [member, offset] : moved) EXPECT_EQ(prepare.offsets.at(std::string("PushConstants.") + member), offset) << member;

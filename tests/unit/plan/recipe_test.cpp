@@ -147,6 +147,28 @@ TEST(Recipe, ShadowKnowsOnlyTheProjection) {
   EXPECT_EQ(shadowRecipe(plan), spot);
 }
 
+TEST(Recipe, CoverageByWidthIsASetOfShadersOfItsOwn) {
+  FramePlan plan = planOf(FLK_METHOD_CORE_TAIL, 0, true);
+  const Recipe texel = shadowRecipe(plan);
+  EXPECT_EQ(texel.vertex, ShaderId::shadow_vert);
+  EXPECT_EQ(texel.main, ShaderId::shadow_frag);
+  plan.cover_width = true;
+  const Recipe width = shadowRecipe(plan);
+  EXPECT_EQ(width.vertex, ShaderId::shadow_width_vert);
+  EXPECT_EQ(width.main, ShaderId::shadow_width_frag);
+  EXPECT_TRUE(width.depth_attachment);
+  expectBuilt(width);
+  // What reads the map does not know.
+  FramePlan plain = plan;
+  plain.cover_width = false;
+  EXPECT_EQ(resolveRecipe(plan), resolveRecipe(plain));
+  EXPECT_EQ(captureRecipe(plan, PassId::capture), captureRecipe(plain, PassId::capture));
+  plan.compute = true;
+  EXPECT_EQ(shadowRecipe(plan).vertex, ShaderId::none);
+  EXPECT_EQ(shadowRecipe(plan).main, ShaderId::shadow_width_compute);
+  expectBuilt(shadowRecipe(plan));
+}
+
 TEST(Recipe, OutputsReadTheListsAsTheyAre) {
   std::set<ShaderId> shaders;
   for (uint32_t output = 0; output < kOutputCount; ++output) {

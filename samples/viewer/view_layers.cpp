@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view_layers.h"
 
+#include "coarse_mesh.h"
 #include "commands.h"
 
 #include <algorithm>
@@ -73,9 +74,16 @@ void ViewLayers::setStage(const Stage& stage) {
 
 void ViewLayers::renewMeshes() {
   std::string error;
+  opaque_drawn_ = nullptr;
   opaque_.reset();
-  opaque_ = OpaqueScene::create(host_, opaqueMeshes(*stage_), error);
-  if (!opaque_) {
+  coarse_.reset();
+  std::vector<OpaqueMesh> meshes = opaqueMeshes(*stage_), coarse;
+  for (const OpaqueMesh& mesh : meshes) {
+    coarse.push_back(coarseMesh(mesh));
+  }
+  opaque_ = OpaqueScene::create(host_, std::move(meshes), error);
+  coarse_ = opaque_ ? OpaqueScene::create(host_, std::move(coarse), error) : nullptr;
+  if (!coarse_) {
     throw AssetError(FLK_ERROR_OUT_OF_DEVICE_MEMORY, error);
   }
 }
@@ -89,10 +97,10 @@ bool ViewLayers::opaqueBounds(float low[3], float high[3]) const {
 }
 
 std::vector<float> ViewLayers::readOpaqueDepth() {
-  if (!opaque_ || opaque_->empty() || !slots_[kLayerFirst].valid) {
+  if (!opaque_drawn_ || !slots_[kLayerFirst].valid) {
     return {};
   }
-  std::vector<float> depth = host_.readImage(opaque_->depth(), VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+  std::vector<float> depth = host_.readImage(opaque_drawn_->depth(), VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
   float projection[16];
   projectionMatrix(last_.camera, stage_->aspect(), projection);
   for (float& value : depth) {
@@ -188,12 +196,17 @@ void ViewLayers::plan(const LayerRequest& request) {
   StagedFrame staged(*stage, request.camera, hairs, request.exposure, request.width, request.height);
   opaque_planned_ = request.meshes && !opaque_->empty();
   if (opaque_planned_) {
-    if (!opaque_->prepare(request.camera, stage->aspect(), request.width, request.height, opaqueLook(*stage_, request.camera))) {
+    OpaqueLook look = opaqueLook(*stage_, request.camera);
+    for (OpaqueLight& light : look.lights) {
+      light.casts_shadow = light.casts_shadow && !request.cheap;  // meshes' shadows are a map of four million texels a light
+    }
+    opaque_drawn_ = request.cheap ? coarse_.get() : opaque_.get();
+    if (!opaque_drawn_->prepare(request.camera, stage->aspect(), request.width, request.height, look)) {
       check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "making an image");
     }
     ensureImage(opaque_color_, request.width, request.height,
                 VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    opaque_->fillFrame(staged.frame, staged.lights);
+    opaque_drawn_->fillFrame(staged.frame, staged.lights);
   }
   for (uint32_t i = 0; i < kLayerCount; ++i) {
     Slot& slot = slots_[i];
@@ -226,7 +239,7 @@ void ViewLayers::plan(const LayerRequest& request) {
 
 void ViewLayers::record(VkCommandBuffer cmd) {
   if (opaque_planned_) {
-    opaque_->recordDepth(cmd);
+    opaque_drawn_->recordDepth(cmd);
   }
   for (Slot& slot : slots_) {
     if (!slot.planned) {
@@ -238,7 +251,7 @@ void ViewLayers::record(VkCommandBuffer cmd) {
     flkCmdRender(cmd, slot.plan);
   }
   if (opaque_planned_) {  // with the hair's shadow of the first layer: what lights are does not depend on methods
-    opaque_->recordColor(cmd, slots_[kLayerFirst].view, opaque_color_);
+    opaque_drawn_->recordColor(cmd, slots_[kLayerFirst].view, opaque_color_);
     opaque_planned_ = false;
   }
 }

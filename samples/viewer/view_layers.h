@@ -113,7 +113,8 @@ private:
   const ViewGpu& gpu_;
   const Stage* stage_ = nullptr;
   std::vector<Hair> hairs_, few_;
-  std::unique_ptr<OpaqueScene> opaque_;
+  std::unique_ptr<OpaqueScene> opaque_, coarse_;  // coarse_: for cheap pictures
+  OpaqueScene* opaque_drawn_ = nullptr;           // of the last picture
   GpuImage opaque_color_;
   bool opaque_planned_ = false;
   std::array<Slot, kLayerCount> slots_;

@@ -13,7 +13,9 @@ namespace forelock::samples {
 
 namespace {
 
-constexpr uint32_t kFewStrands = 3000;  // that a slow device draws while the view moves
+// What a slow device draws while the view moves: that many segments, and at least that many strands.
+constexpr uint64_t kFewSegments = 12'000;
+constexpr uint32_t kLeastStrands = 400;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -130,14 +132,16 @@ void ViewLoader::runStudy(const Stage& plain, const std::vector<double>& opaciti
   for (size_t i = 0; i < plain.assets.size(); ++i) {
     const StagedAsset& asset = plain.assets[i];
     std::unique_ptr<OpenedAsset> few;
-    if (asset.info.strand_count > kFewStrands && !stop_study_) {
+    const uint64_t segments = asset.info.vertex_count - asset.info.strand_count;
+    const uint32_t wanted = std::max(static_cast<uint32_t>(uint64_t{asset.info.strand_count} * kFewSegments / std::max<uint64_t>(segments, 1)), kLeastStrands);
+    if (asset.info.strand_count > wanted && !stop_study_) {
       try {
         FlkStrands strands = {};
         flkAssetGetStrands(asset.opened.asset.get(), &strands);
         EditableStrands edited = editableStrands(strands, true);
         orderStrands(edited, evenOrder(edited));
         if (!stop_study_) {
-          keepFirstStrands(edited, kFewStrands, opacities[i]);
+          keepFirstStrands(edited, wanted, opacities[i]);
           few = std::make_unique<OpenedAsset>(assetOf(edited.view(), asset.opened.label));
         }
       } catch (const std::exception&) {

@@ -62,7 +62,7 @@ public:
   void fillFrame(FlkFrame& frame, std::vector<FlkLight>& lights) const;
   // After flkCmdRender of `view`: shades the meshes, with hair's shadow maps of the view's latest plan. `target`: RGBA16F of prepare()'s size
   // with COLOR_ATTACHMENT usage; what was in it is lost, and it is left in SHADER_READ_ONLY_OPTIMAL, visible to all that follows. Alpha
-  // is 1 on meshes, 0 elsewhere. Once a prepare().
+  // is 1 on meshes, 0 elsewhere. What an earlier call recorded must have completed.
   void recordColor(VkCommandBuffer cmd, FlkView view, const GpuImage& target);
 
   const GpuImage& depth() const;  // D32_SFLOAT, in DEPTH_READ_ONLY_OPTIMAL after recordDepth

@@ -29,6 +29,7 @@ void refuseUnmirrored(const Scene& scene, const std::string& file) {
   };
   for (std::size_t i = 0; i < scene.assets.size(); ++i)
     if (!scene.assets[i].root_image.empty()) refuse("assets[" + std::to_string(i) + "].root_image");
+  if (!scene.meshes.empty()) refuse("meshes");
   if (scene.near_fade) refuse("near_fade");
   if (scene.lens) refuse("lens");
   if (scene.head && *scene.head) refuse("head");

@@ -23,7 +23,6 @@ using samples::OpaqueScene;
 
 constexpr uint32_t kSize = 256;
 
-// Of two metres around the origin's side, from the front and a little above.
 Camera cameraAt(const glm::dvec3& eye, const glm::dvec3& target, double fov) {
   Camera camera;
   camera.eye = eye;
@@ -244,7 +243,7 @@ double hairMean(const Drawn& drawn, uint32_t x0, uint32_t x1) {
   return color / alpha;
 }
 
-// From the side and above at a carpet of hair whose left half lies below a plate, which the camera looks under.
+// A carpet of hair whose left half lies below a plate, which the camera looks under.
 TEST(Opaque, MeshesDarkenHairBelowThem) {
   const Camera camera = cameraAt({0, 0.12, 1.0}, {0, 0, 0}, 0.25);
   const StrandArrays hair = carpet(-0.1f, 0.1f, 0.0f);
@@ -253,7 +252,7 @@ TEST(Opaque, MeshesDarkenHairBelowThem) {
     const Drawn below = draw(hair, {plate(-0.2f, 0.0f, 0.1f, 0.2f)}, camera, lit(light));
     EXPECT_EQ(below.maps, 1u);
     EXPECT_TRUE(below.host_maps && below.host_shadow);
-    // A columns's width of 1.9 mm, so that 30 columns leave out the edge of the shadow, which of a lamp is 25 % off the plate's.
+    // Columns are 1 mm wide: 28 of them leave out the edge of the shadow, which of a lamp is 25 % farther out than the plate's.
     EXPECT_LT(hairMean(below, 20, 100), 1e-4) << "kind " << light.kind << ": all of the light is behind the plate";
     EXPECT_NEAR(hairMean(below, 160, 230) / hairMean(bare, 160, 230), 1.0, 1e-3) << "kind " << light.kind << ": beside it nothing changes";
   }

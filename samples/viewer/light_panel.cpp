@@ -56,6 +56,9 @@ bool lightWidgets(SceneLight& light) {
     if (ui::choose("Shadow map", index, names, "Texels a side")) {
       light.shadow_size = sizes[index];
     }
+    ui::choose("Strands cover", light.shadow_cover, {"texels", "their width"},
+               "Of the shadow map: every texel they touch, as in the paper, which is darker the coarser the map is; or as many as their width asks for, "
+               "the same light whatever the map's size");
   }
   return !ui::button("Remove", "This light out of the scene");
 }

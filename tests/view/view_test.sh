@@ -1,0 +1,37 @@
+#!/bin/sh
+# sh view_test.sh FORELOCK FOLDER-OF-SCRIPTS OUT: the window under Xvfb, with validation layers on.
+set -eu
+forelock=$1
+scripts=$2
+out=$3
+mkdir -p "$out"
+cd "$out"
+[ -n "${FORELOCK_XVFB_RUN:-}" ] && [ -x "$FORELOCK_XVFB_RUN" ] || { echo "xvfb-run is not installed: package xvfb" >&2; exit 1; }
+window() { "$FORELOCK_XVFB_RUN" -a -s "-screen 0 1400x900x24" "$forelock" view --forget --validation "$@"; }
+
+# A small groom, so that every frame is quick.
+sed 's/"strands": *[0-9]*/"strands": 300/' "$FORELOCK_HAIRASSETS/short-straight.json" >small.json
+grep -q '"strands": 300' small.json || { echo "the small groom was not made" >&2; exit 1; }
+
+echo "-- a tour"
+rm -f tour.png tour.sh command.png tour-window.png
+window small.json --window 1100x700 --script "$scripts/tour.txt"
+[ -s tour-window.png ] || { echo "no picture of the window" >&2; exit 1; }
+
+echo "-- the command line that it copied makes the same picture"
+PATH=$(dirname "$forelock"):$PATH sh ./tour.sh >/dev/null
+cmp tour.png command.png || { echo "the pictures differ" >&2; exit 1; }
+
+echo "-- every widget"
+window small.json --window 1100x700 --script "$scripts/walk.txt"
+
+echo "-- what is no hair is said so"
+printf 'version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n' >pointer.tfx
+if window pointer.tfx --frames 1 2>bad.txt; then echo "a pointer was opened" >&2; exit 1; fi
+grep -qi 'lfs' bad.txt || { cat bad.txt >&2; exit 1; }
+
+echo "-- no display"
+status=0
+env -u DISPLAY -u WAYLAND_DISPLAY "$forelock" view small.json --forget 2>bad.txt || status=$?
+[ "$status" = 3 ] || { echo "exit status $status without a display" >&2; cat bad.txt >&2; exit 1; }
+grep -q 'display' bad.txt

@@ -42,7 +42,7 @@ struct Verb {
 };
 const std::map<std::string, Verb> kVerbs{{"wait", {0, 0}},     {"frames", {1, 1}},  {"click", {1, 99}},   {"click-at", {2, 2}}, {"drag", {4, 6}},
                                          {"wheel", {1, 3}},    {"key", {1, 3}},     {"type", {1, 99}},    {"resize", {2, 2}},   {"minimise", {0, 0}},
-                                         {"restore", {0, 0}},  {"drop", {1, 99}},   {"shot", {1, 1}},     {"picture", {1, 1}},  {"walk", {0, 99}},
+                                         {"restore", {0, 0}},  {"drop", {1, 99}},   {"shot", {1, 1}},     {"picture", {1, 1}},  {"walk", {1, 99}},
                                          {"lose-device", {0, 0}}, {"move", {2, 2}}, {"command", {1, 1}}};
 
 }  // namespace

@@ -12,6 +12,7 @@ layout(push_constant) uniform Push {
   float divider;    // share of the width
   float gain;       // of the difference
   uint has_opaque;
+  float scale;      // of hair that was drawn with another exposure
 } push;
 
 layout(location = 0) out vec4 color;
@@ -27,6 +28,7 @@ void main() {
   const vec2 at = (gl_FragCoord.xy - push.rect.xy) / push.rect.zw;
   const bool second = push.mode == 1u && at.x > push.divider;
   vec4 first = second ? texture(hair_second, at) : texture(hair_first, at);
+  first.rgb *= push.scale;
   if (push.mode == 2u) {
     const vec3 off = abs(first.rgb - texture(hair_second, at).rgb) * push.gain;
     color = vec4(encodeSrgb(off), 1.0);

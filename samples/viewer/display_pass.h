@@ -16,6 +16,7 @@ struct DisplayPush {  // display.frag
   uint32_t mode;
   float divider, gain;
   uint32_t has_opaque;
+  float scale;
 };
 
 class DisplayPass {

@@ -112,7 +112,8 @@ private:
   std::string drawn_key_;      // of the last picture
   bool drawn_full_ = false, again_ = false, pending_picture_ = false, fly_ = false;
   Clock::time_point last_change_ = Clock::now(), last_frame_ = Clock::now(), opened_ = Clock::now(), lost_{};
-  double cheap_share_ = 0.5, full_ms_ = 0.0;
+  double cheap_share_ = 0.35, full_ms_ = 0.0;
+  bool sounding_ = false;      // what is shown is the small picture that told the exposure
   bool opening_ = false, first_picture_ = false, measured_ = false, minimised_ = false;
   uint32_t frames_ = 0, settled_frames_ = 0;
   std::vector<double> moving_ms_;   // from the input to the picture, while something moved
@@ -674,6 +675,7 @@ void Viewer::moveCamera(double dt) {
 // Plans the layers that the window needs anew. False: failed, and said so.
 bool Viewer::planPicture(bool& planned) {
   planned = false;
+  sounding_ = false;
   if (!session_.stage()) {
     return true;
   }
@@ -705,6 +707,12 @@ bool Viewer::planPicture(bool& planned) {
       applied_.exposure = scene.exposure;
       session_.plain->scene.exposure = scene.exposure;
       key = pictureKey(session_, camera);
+      if (!first_picture_) {  // the small picture that told the exposure is shown at once
+        const VkImageView small = device_->layers->hairImage(kLayerFirst).view;
+        device_->display->bind({small, small, small, small});
+        sounding_ = true;
+        return true;
+      }
     }
     LayerRequest request;
     request.camera = camera;
@@ -776,7 +784,7 @@ void Viewer::measure() {
 }
 
 bool Viewer::settled() const {
-  return !loader_.busy() && !opening_ && !loader_.studying() && session_.status.size() < SIZE_MAX && (!session_.loaded() || (drawn_full_ && !again_)) &&
+  return !loader_.busy() && !opening_ && !loader_.studying() && !sounding_ && (!session_.loaded() || (drawn_full_ && !again_)) &&
          !session_.approach_to && turntable_views_ == 0;
 }
 
@@ -838,7 +846,8 @@ void Viewer::frame() {
         push.mode = session_.shaded() ? static_cast<uint32_t>(session_.compare) : 0;
         push.divider = session_.divider;
         push.gain = session_.gain;
-        push.has_opaque = device_->layers->opaqueView() ? 1 : 0;
+        push.has_opaque = device_->layers->opaqueView() && !sounding_ ? 1 : 0;
+        push.scale = sounding_ ? static_cast<float>(session_.scene.exposure) : 1.0f;
         device_->display->record(cmd, push);
       });
   if (!drawn && planned) {  // the window cannot be drawn to now: the picture is drawn all the same
@@ -852,12 +861,12 @@ void Viewer::frame() {
       moving_ms_.push_back(ms);
     }
     afterPicture(ms);
-    if (!first_picture_) {
-      first_picture_ = true;
-      char text[64];
-      std::snprintf(text, sizeof text, ", first picture after %.2f s", seconds(Clock::now() - opened_));
-      session_.status += text;
-    }
+  }
+  if (!first_picture_ && (planned || sounding_)) {
+    first_picture_ = true;
+    char text[64];
+    std::snprintf(text, sizeof text, ", first picture after %.2f s", seconds(Clock::now() - opened_));
+    session_.status += text;
   }
   ++frames_;
   if (settled() && session_.loaded()) {

@@ -1,9 +1,10 @@
 #!/bin/sh
-# sh view_test.sh FORELOCK FOLDER-OF-SCRIPTS OUT: the window under Xvfb, with validation layers on.
+# sh view_test.sh FORELOCK FOLDER-OF-SCRIPTS OUT [FORELOCK-WITH-LEAKSANITIZER]: the window under Xvfb, with validation layers on.
 set -eu
 forelock=$1
 scripts=$2
 out=$3
+leak=${4:-}
 mkdir -p "$out"
 cd "$out"
 [ -n "${FORELOCK_XVFB_RUN:-}" ] && [ -x "$FORELOCK_XVFB_RUN" ] || { echo "xvfb-run is not installed: package xvfb" >&2; exit 1; }
@@ -24,6 +25,14 @@ cmp tour.png command.png || { echo "the pictures differ" >&2; exit 1; }
 
 echo "-- every widget"
 window small.json --window 1100x700 --script "$scripts/walk.txt"
+
+if [ -n "$leak" ]; then
+  echo "-- nothing is leaked"
+  # What a library keeps that is unloaded by then has no name to be suppressed by: a leak is ours where our program is on its stack.
+  LSAN_OPTIONS=exitcode=0:suppressions=$scripts/lsan.supp "$FORELOCK_XVFB_RUN" -a -s "-screen 0 1400x900x24" \
+    "$leak" view --forget small.json --window 1100x700 --script "$scripts/leak.txt" >leak.log 2>&1 || { cat leak.log >&2; exit 1; }
+  if grep -E 'view_leak|forelock::' leak.log >&2; then cat leak.log >&2; exit 1; fi
+fi
 
 echo "-- what is no hair is said so"
 printf 'version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n' >pointer.tfx

@@ -38,6 +38,7 @@ The picture is build/quickstart.png. What to try next:
   build/forelock preview groom:long-wavy -o out.png --hair-color c9a26b --azimuth 200
   build/forelock preview groom:long-wavy -o out.png --color layers     how many fragments a pixel has
   build/forelock preview groom:long-wavy -o out.png --turntable 6 --size 512x512
+  build/forelock view groom:long-wavy                      a window: turn it, light it, compare methods, see what they cost
   build/forelock inspect FILE                              what is in a strand file, and what is wrong with it
   build/forelock plan groom:long-wavy                      the passes and bytes that a frame needs, and what is left out
   build/forelock_minimal                                   a host engine in one C file: samples/minimal/minimal.c

@@ -2,8 +2,7 @@
 // The picture into the window: hair over what is opaque over the ground; two of them beside each other, or their difference.
 layout(set = 0, binding = 0) uniform sampler2D hair_first;
 layout(set = 0, binding = 1) uniform sampler2D hair_second;
-layout(set = 0, binding = 2) uniform sampler2D opaque_first;
-layout(set = 0, binding = 3) uniform sampler2D opaque_second;
+layout(set = 0, binding = 2) uniform sampler2D opaque;
 
 layout(push_constant) uniform Push {
   vec4 rect;        // x, y, width, height of the picture in the window (px)
@@ -35,7 +34,7 @@ void main() {
     return;
   }
   if (push.has_opaque != 0u) {
-    first = premultipliedOver(first, second ? texture(opaque_second, at) : texture(opaque_first, at));
+    first = premultipliedOver(first, texture(opaque, at));
   }
   vec3 ground = push.ground.rgb;
   if (push.ground.a == 0.0) {

@@ -31,18 +31,18 @@ DisplayPass::DisplayPass(const ViewGpu& gpu, VkRenderPass render_pass) : gpu_(gp
   auto sampler = tagged<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
   sampler.magFilter = sampler.minFilter = VK_FILTER_LINEAR;  // a picture of the window's size is met in its texels' middles
   sampler.addressModeU = sampler.addressModeV = sampler.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  VkDescriptorSetLayoutBinding bindings[4] = {};
-  for (uint32_t i = 0; i < 4; ++i) {
+  VkDescriptorSetLayoutBinding bindings[kDisplayImages] = {};
+  for (uint32_t i = 0; i < kDisplayImages; ++i) {
     bindings[i] = {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
   }
   auto set_layout = tagged<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-  set_layout.bindingCount = 4;
+  set_layout.bindingCount = kDisplayImages;
   set_layout.pBindings = bindings;
   const VkPushConstantRange range{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(DisplayPush)};
   auto layout = tagged<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
   layout.setLayoutCount = layout.pushConstantRangeCount = 1;
   layout.pPushConstantRanges = &range;
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4};
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kDisplayImages};
   auto pool = tagged<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
   pool.maxSets = pool.poolSizeCount = 1;
   pool.pPoolSizes = &size;
@@ -124,11 +124,11 @@ void DisplayPass::release() {
   gpu_.vkDestroySampler(gpu_.device, sampler_, nullptr);
 }
 
-void DisplayPass::bind(const std::array<VkImageView, 4>& views) {
+void DisplayPass::bind(const std::array<VkImageView, kDisplayImages>& views) {
 
-  VkDescriptorImageInfo images[4];
-  VkWriteDescriptorSet writes[4];
-  for (uint32_t i = 0; i < 4; ++i) {
+  VkDescriptorImageInfo images[kDisplayImages];
+  VkWriteDescriptorSet writes[kDisplayImages];
+  for (uint32_t i = 0; i < kDisplayImages; ++i) {
     images[i] = {sampler_, views[i], VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     writes[i] = tagged<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     writes[i].dstSet = set_;
@@ -137,7 +137,7 @@ void DisplayPass::bind(const std::array<VkImageView, 4>& views) {
     writes[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     writes[i].pImageInfo = &images[i];
   }
-  gpu_.vkUpdateDescriptorSets(gpu_.device, 4, writes, 0, nullptr);
+  gpu_.vkUpdateDescriptorSets(gpu_.device, kDisplayImages, writes, 0, nullptr);
 }
 
 void DisplayPass::record(VkCommandBuffer cmd, const DisplayPush& push) const {

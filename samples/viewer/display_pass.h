@@ -10,6 +10,8 @@ namespace forelock::samples {
 
 enum class Compare : uint32_t { none = 0, split = 1, difference = 2 };
 
+inline constexpr uint32_t kDisplayImages = 3;
+
 struct DisplayPush {  // display.frag
   float rect[4];
   float ground[4];
@@ -27,8 +29,8 @@ public:
   DisplayPass(const DisplayPass&) = delete;
   DisplayPass& operator=(const DisplayPass&) = delete;
 
-  // hair_first, hair_second, opaque_first, opaque_second, all in SHADER_READ_ONLY_OPTIMAL; between frames.
-  void bind(const std::array<VkImageView, 4>& views);
+  // hair_first, hair_second, opaque, all in SHADER_READ_ONLY_OPTIMAL; between frames.
+  void bind(const std::array<VkImageView, kDisplayImages>& views);
   void record(VkCommandBuffer cmd, const DisplayPush& push) const;
 
 private:

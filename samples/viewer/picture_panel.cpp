@@ -30,11 +30,10 @@ void picturePanel(ViewSession& session) {
   }
   static const std::vector<uint32_t> kViews{8, 12, 24, 36, 72};
   static const std::vector<std::string> kNames{"8 views", "12 views", "24 views", "36 views", "72 views"};
-  static uint32_t views = 1;
-  ui::choose("All around", views, kNames, "Views of a turntable, evenly around what is looked at");
+  ui::choose("All around", session.turntable_choice, kNames, "Views of a turntable, evenly around what is looked at");
   ImGui::SameLine();
   if (ui::smallButton("Save", "Each view as a picture, numbered, beside the name that is asked for")) {
-    ask.turntable = kViews[views];
+    ask.turntable = kViews[session.turntable_choice];
   }
 }
 

@@ -94,10 +94,6 @@ void eachKey(Keys& keys, ViewSettings& s) {
   keys.number("window_height", s.window_height, 160, 16384);
   keys.flag("show_left", s.show_left);
   keys.flag("show_right", s.show_right);
-  keys.flag("show_plan", s.show_plan);
-  keys.flag("show_times", s.show_times);
-  keys.flag("show_findings", s.show_findings);
-  keys.flag("show_strand", s.show_strand);
   keys.number("ui_scale", s.ui_scale, 0.25, 8.0, true);
   keys.flag("vsync", s.vsync);
   keys.number("moving_budget_ms", s.moving_budget_ms, 1.0, 1000.0);

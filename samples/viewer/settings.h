@@ -10,7 +10,6 @@ struct ViewSettings {
   std::vector<std::string> recent;  // newest first, at most kMostRecent; absolute paths or groom:NAME
   int window_width = 1280, window_height = 800;  // (screen coordinates) [160, 16384]
   bool show_left = true, show_right = true;      // panels
-  bool show_plan = false, show_times = false, show_findings = false, show_strand = false;
   float ui_scale = 0.0f;           // [0.25, 8]; 0: the screen's
   bool vsync = true;
   double moving_budget_ms = 50.0;  // [1, 1000] of a frame while something moves

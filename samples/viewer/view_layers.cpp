@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace forelock::samples {
 
@@ -18,11 +17,6 @@ constexpr uint32_t kCheapShadow = 512;  // taps and methods stay: others are oth
 
 constexpr VkImageUsageFlags kHairUsage =
     VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-
-// Of a depth buffer's value.
-float viewDepth(const float projection[16], float value) {
-  return (value * projection[15] - projection[14]) / (value * projection[11] - projection[10]) * -1.0f;
-}
 
 }  // namespace
 
@@ -94,20 +88,6 @@ bool ViewLayers::opaqueBounds(float low[3], float high[3]) const {
   }
   opaque_->bounds(low, high);
   return true;
-}
-
-std::vector<float> ViewLayers::readOpaqueDepth() {
-  if (!opaque_drawn_ || !slots_[kLayerFirst].valid) {
-    return {};
-  }
-  std::vector<float> depth = host_.readImage(opaque_drawn_->depth(), VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
-  float projection[16];
-  projectionMatrix(last_.camera, stage_->aspect(), projection);
-  for (float& value : depth) {
-    const bool none = value == (last_.camera.reversed_depth ? 0.0f : 1.0f);
-    value = none ? std::numeric_limits<float>::infinity() : viewDepth(projection, value);
-  }
-  return depth;
 }
 
 void ViewLayers::setFewStrands(const std::vector<std::unique_ptr<OpenedAsset>>& assets) {

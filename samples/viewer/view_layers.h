@@ -83,8 +83,6 @@ public:
   VkImageView opaqueView() const { return opaque_ && !opaque_->empty() ? opaque_color_.view : VK_NULL_HANDLE; }
   // Box around what is opaque (m); false: nothing is.
   bool opaqueBounds(float low[3], float high[3]) const;
-  // View depth (m) of what is opaque in each pixel of the last full picture, infinity where nothing is; empty: nothing is.
-  std::vector<float> readOpaqueDepth();
   const GpuImage& hairImage(LayerIndex layer) const { return slots_[layer].hair; }  // SHADER_READ_ONLY_OPTIMAL once drawn
 
   // Linear, premultiplied, hair over what is opaque, as `forelock preview` has it before its background.

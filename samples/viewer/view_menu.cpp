@@ -22,7 +22,7 @@ constexpr Key kMouse[] = {
     {"click", "pick a strand"},
     {"double click", "pick a strand and go there"},
     {"drag the divider", "more of one method or the other"},
-    {"drop files", "open; several, or with shift: beside what is open"},
+    {"drop files", "open, several beside each other; with shift beside what is open"},
 };
 constexpr Key kKeys[] = {
     {"Ctrl O", "open a strand file"},

@@ -32,10 +32,10 @@ struct Selection {
 // What panels ask for; carried out between frames.
 struct Requests {
   std::optional<Scene> open;              // a scene to load
-  bool add_file = false, open_file = false, open_mesh = false, open_scene = false;  // dialogues
+  bool add_file = false, open_file = false, open_scene = false;  // dialogues
   bool save_scene = false, save_picture = false;
   bool copy_command = false, frame_all = false, frame_selection = false;
-  bool auto_exposure = false, reset_view = false, quit = false, lose_device = false;
+  bool reset_view = false, quit = false;
   std::optional<std::string> camera;      // of the groom
   std::optional<float> ui_scale;
   uint32_t turntable = 0;                 // views to write
@@ -47,7 +47,6 @@ struct ViewSession {
 
   Scene scene;                            // what is edited; the stage has a copy
   std::unique_ptr<Stage> plain, colored;  // of it; none: nothing is loaded yet
-  std::string source_folder;
   Stage* stage() { return colored ? colored.get() : plain.get(); }
   std::vector<std::vector<FindingStrands>> findings;  // of each asset of `plain`; empty: not yet looked for
   std::vector<StrandFaults> faults;                   // likewise
@@ -58,6 +57,7 @@ struct ViewSession {
   Bounds bounds;
   bool turning = false;                   // turntable in the window
   double turn_speed = 30.0;               // (degree/s)
+  uint32_t turntable_choice = 1;          // of the numbers of views that can be saved
 
   Compare compare = Compare::none;
   MethodChoice second{FLK_METHOD_EXACT};
@@ -66,16 +66,13 @@ struct ViewSession {
   double error = std::numeric_limits<double>::quiet_NaN();        // RMSE of the first against exact, 0..255
   double error_second = std::numeric_limits<double>::quiet_NaN();
   bool count_work = false;
-  bool grey_ground = false;               // the pattern behind what is transparent
-  float ground[3] = {0.0144f, 0.0176f, 0.0212f};
 
   Selection selection;
   std::optional<StrandHit> picked;        // of selection.asset
-  std::optional<uint64_t> layers_under_mouse;
   TimeHistory times;
   double frame_ms = 0.0;                  // of the last picture, from planning until it was there
   double share = 1.0;                     // of the window's resolution that was drawn
-  bool cheap = false, few_strands = false;  // the last picture was a quick one
+  bool few_strands = false;               // the last picture was of a level of detail
   bool exposure_chosen = true;            // the exposure follows when the light changes
 
   std::string busy;                       // what is under way, for a progress bar
@@ -89,7 +86,7 @@ struct ViewSession {
   bool show_strand = false;  // its panel to the front
 
   // A file dialogue.
-  enum class Browse { none, open, add, mesh, scene, save_scene, save_picture } browse = Browse::none;
+  enum class Browse { none, open, add, scene, save_scene, save_picture } browse = Browse::none;
 
   bool loaded() const { return plain != nullptr; }
   bool shaded() const { return scene.display == FLK_DISPLAY_SHADED && scene.coloring == StrandColoring::none; }

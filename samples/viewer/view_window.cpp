@@ -124,11 +124,6 @@ void ViewWindow::setTitle(const std::string& title) {
 void ViewWindow::resize(int width, int height) { glfwSetWindowSize(window_, width, height); }
 std::vector<std::string> ViewWindow::takeDropped() { return std::exchange(dropped_, {}); }
 
-std::string ViewWindow::clipboard() const {
-  const char* text = glfwGetClipboardString(window_);
-  return text ? text : "";
-}
-
 void ViewWindow::setClipboard(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
 
 void ViewWindow::poll(double wait_s) {
@@ -138,6 +133,8 @@ void ViewWindow::poll(double wait_s) {
     glfwPollEvents();
   }
 }
+
+void ViewWindow::wake() { glfwPostEmptyEvent(); }
 
 // ---- The screen ----
 

@@ -36,11 +36,11 @@ public:
   void setTitle(const std::string& title);
   void resize(int width, int height);
   std::vector<std::string> takeDropped();      // paths that were dragged in since the last call
-  std::string clipboard() const;
   void setClipboard(const std::string& text);
 
   // Handles what has come in; waits for something up to `wait_s`.
   static void poll(double wait_s);
+  static void wake();  // ends the wait; any thread
 
 private:
   static void onDrop(GLFWwindow* window, int count, const char** paths);
@@ -57,7 +57,7 @@ public:
     std::string device_name;
     float ui_scale = 1.0f;
   };
-  // Throws std::runtime_error. `screen` null inside when there is no usable device: `error` then says why.
+  // Throws std::runtime_error. Null with the reason in `error` when there is no usable device.
   static std::unique_ptr<ViewScreen> create(ViewWindow& window, const Options& options, std::string& error);
   ~ViewScreen();
   ViewScreen(const ViewScreen&) = delete;
@@ -66,7 +66,6 @@ public:
   HeadlessHost& host() { return *host_; }
   const ViewGpu& gpu() const { return gpu_; }
   VkRenderPass renderPass() const { return render_pass_; }
-  bool canPresent() const { return swapchain_ != VK_NULL_HANDLE; }
   // Fonts and widgets of another size; between frames.
   void setUiScale(float scale);
   void setVsync(bool vsync);

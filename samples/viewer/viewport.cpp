@@ -179,8 +179,7 @@ void Viewport::drawSelection(const ViewSession& session) const {
   draw->PopClipRect();
 }
 
-void Viewport::drawCount(ViewSession& session, ViewLayers& layers) {
-  session.layers_under_mouse.reset();
+void Viewport::drawCount(const ViewSession& session, ViewLayers& layers) {
   if (session.scene.display != FLK_DISPLAY_LAYERS || session.scene.coloring != StrandColoring::none || !layers.drawn(kLayerFirst) ||
       !ImGui::IsMouseHoveringRect(ImVec2(rect_.x, rect_.y), ImVec2(rect_.x + rect_.width, rect_.y + rect_.height)) || drag_ != Drag::none) {
     counted_x_ = -1;
@@ -188,25 +187,21 @@ void Viewport::drawCount(ViewSession& session, ViewLayers& layers) {
   }
   const ImVec2 at = ImGui::GetIO().MousePos;
   const int x = static_cast<int>((at.x - rect_.x) * scale_), y = static_cast<int>((at.y - rect_.y) * scale_);
-  static uint64_t count = 0;
-  static bool known = false;
   const std::string key = pictureKey(session, cameraOf(session.orbit, session.bounds));
   if (x != counted_x_ || y != counted_y_ || key != counted_key_) {
     counted_x_ = x;
     counted_y_ = y;
     counted_key_ = key;
     hover_since_ = Clock::now();
-    known = false;
+    counted_.reset();
   }
   const bool full = layers.hairImage(kLayerFirst).width == session.scene.width;
-  if (!known && full && std::chrono::duration<double>(Clock::now() - hover_since_).count() > kCountAfter_s && x >= 0 && y >= 0 &&
+  if (!counted_ && full && std::chrono::duration<double>(Clock::now() - hover_since_).count() > kCountAfter_s && x >= 0 && y >= 0 &&
       static_cast<uint32_t>(x) < session.scene.width && static_cast<uint32_t>(y) < session.scene.height) {
-    count = layers.countFragments(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
-    known = true;
+    counted_ = layers.countFragments(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
   }
-  if (known) {
-    session.layers_under_mouse = count;
-    ImGui::SetTooltip("%s fragments in pixel %d, %d", groupedDigits(count).c_str(), x, y);
+  if (counted_) {
+    ImGui::SetTooltip("%s fragments in pixel %d, %d", groupedDigits(*counted_).c_str(), x, y);
   }
 }
 

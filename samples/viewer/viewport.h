@@ -23,13 +23,14 @@ private:
   void mouse(ViewSession& session);
   void pick(ViewSession& session, bool go);
   void drawSelection(const ViewSession& session) const;
-  void drawCount(ViewSession& session, ViewLayers& layers);
+  void drawCount(const ViewSession& session, ViewLayers& layers);
 
   ViewportRect rect_;
   float scale_ = 1.0f;  // pixels a unit of the window
   Drag drag_ = Drag::none;
   float moved_ = 0.0f;  // since the button went down
-  int counted_x_ = -1, counted_y_ = -1;
+  int counted_x_ = -1, counted_y_ = -1;  // the pixel under the mouse, and how many layers it has once that is known
+  std::optional<uint64_t> counted_;
   std::string counted_key_;
   Clock::time_point hover_since_{};
 };

@@ -47,7 +47,6 @@ TEST_F(Settings, MissingFileIsTheDefault) {
   EXPECT_TRUE(notes.empty());
   EXPECT_EQ(settings.window_width, 1280);
   EXPECT_TRUE(settings.show_left);
-  EXPECT_FALSE(settings.show_plan);
   EXPECT_FALSE(settings.leave_file);
 }
 
@@ -56,7 +55,6 @@ TEST_F(Settings, ComesBackAsItWas) {
   settings.recent = {"/a/b.tfx", "groom:curly", "/an \"odd\" näme.hair"};
   settings.window_width = 1900, settings.window_height = 777;
   settings.show_left = settings.vsync = settings.adapt = settings.show_right = false;
-  settings.show_plan = settings.show_times = settings.show_findings = settings.show_strand = true;
   settings.ui_scale = 1.35f;
   settings.moving_budget_ms = 33.3;
   settings.last_folder = "/tmp";
@@ -67,7 +65,6 @@ TEST_F(Settings, ComesBackAsItWas) {
   EXPECT_EQ(back.window_width, 1900);
   EXPECT_EQ(back.window_height, 777);
   EXPECT_FALSE(back.show_left || back.show_right || back.vsync || back.adapt);
-  EXPECT_TRUE(back.show_plan && back.show_times && back.show_findings && back.show_strand);
   EXPECT_EQ(back.ui_scale, 1.35f);
   EXPECT_EQ(back.moving_budget_ms, 33.3);
   EXPECT_EQ(back.last_folder, "/tmp");

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "viewer_app.h"
+
+#include "picture_file.h"
+#include "view_measure.h"
+
+#include <glm/common.hpp>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace forelock::samples {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool sceneSuffix(const std::string& name) { return fs::path(name).extension() == ".json"; }
+
+bool strandSuffix(const std::string& name) {
+  static const char* const kSuffixes[] = {".tfx", ".hair", ".ply", ".gltf", ".glb", ".flk", ".data", ".bin", ".json"};
+  const std::string suffix = fs::path(name).extension().string();
+  return std::any_of(std::begin(kSuffixes), std::end(kSuffixes), [&](const char* known) { return suffix == known; });
+}
+
+}  // namespace
+
+void Viewer::open(const Scene& scene) {
+  opened_ = Clock::now();
+  opening_ = true;
+  first_picture_ = false;
+  loader_.open(scene);
+}
+
+void Viewer::openPath(const std::string& path, bool add) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    session_.settings.last_folder = path;
+    browse(add ? ViewSession::Browse::add : ViewSession::Browse::open);
+    return;
+  }
+  const std::string whole = path.rfind("groom:", 0) == 0 ? path : fs::absolute(path, error).string();
+  if (sceneSuffix(path)) {  // a recipe is one too: told by whether it parses as a scene with assets
+    try {
+      const Scene scene = loadScene(path);
+      if (!scene.assets.empty()) {
+        open(scene);
+        return;
+      }
+    } catch (const std::exception&) {
+    }
+  }
+  open(sceneOf(session_, whole, add && session_.loaded()));
+}
+
+// What was dragged in: with shift beside what is open, several beside each other.
+void Viewer::takeDropped() {
+  const std::vector<std::string> paths = window_->takeDropped();
+  const bool add = ImGui::GetIO().KeyShift;
+  if (paths.size() == 1) {
+    openPath(paths[0], add);
+  } else if (!paths.empty()) {
+    Scene scene = sceneOf(session_, paths[0], add && session_.loaded());
+    for (size_t i = 1; i < paths.size(); ++i) {
+      scene.assets.emplace_back().source = paths[i];
+    }
+    open(scene);
+  }
+}
+
+void Viewer::adopt(std::unique_ptr<LoadedStage> loaded) {
+  opening_ = false;
+  if (!loaded->plain) {
+    session_.alert = loaded->error + (session_.loaded() ? "\n\nWhat was open stays as it was." : "");
+    return;
+  }
+  loader_.stopStudy();
+  try {
+    device_->layers->setStage(loaded->colored ? *loaded->colored : *loaded->plain);
+  } catch (const AssetError& error) {
+    session_.alert = error.what();
+    if (session_.stage()) {
+      device_->layers->setStage(*session_.stage());
+    }
+    return;
+  }
+  session_.plain = std::move(loaded->plain);
+  session_.colored = std::move(loaded->colored);
+  session_.findings.clear();
+  session_.faults.clear();
+  session_.selection = {};
+  session_.picked.reset();
+  session_.times.clear();
+  const Stage& stage = *session_.plain;
+  session_.notes = stage.notes;
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::vec3& p : stage.seen) {
+    low = glm::min(low, glm::dvec3(p) - stage.radius);
+    high = glm::max(high, glm::dvec3(p) + stage.radius);
+  }
+  session_.bounds = {low, high};
+  encloseMeshes();
+  session_.scene = stage.scene;
+  session_.exposure_chosen = stage.scene.exposure <= 0.0;  // one that was asked for stays
+  viewport_.size(session_.scene.width, session_.scene.height);
+  session_.plain->scene.width = session_.scene.width;
+  session_.plain->scene.height = session_.scene.height;
+  home_ = orbitOf(stageCamera(*session_.plain, 0, 1), session_.scene.camera.up);
+  session_.orbit = home_;
+  session_.approach_to.reset();
+  applied_ = session_.scene;
+  drawn_key_.clear();
+  last_change_ = Clock::now();
+  std::string names;
+  for (const SceneAsset& asset : session_.scene.assets) {
+    noteRecent(session_.settings, asset.source);
+    names += (names.empty() ? "" : ", ") + (asset.source.rfind("groom:", 0) == 0 ? asset.source : fs::path(asset.source).filename().string());
+  }
+  window_->setTitle(names + " - Forelock");
+  char text[64];
+  std::snprintf(text, sizeof text, ", opened in %.2f s", loaded->seconds);
+  session_.say(names + text);
+  loader_.study(*session_.plain);
+}
+
+void Viewer::adoptExtras(std::unique_ptr<LoadedExtras> extras) {
+  if (session_.plain && extras->findings.size() == session_.plain->assets.size()) {
+    session_.findings = std::move(extras->findings);
+    session_.faults = std::move(extras->faults);
+    const bool any = std::any_of(extras->few.begin(), extras->few.end(), [](const auto& few) { return few != nullptr; });
+    if (any && !session_.colored) {
+      device_->layers->setFewStrands(extras->few);
+    }
+  }
+}
+
+void Viewer::browse(ViewSession::Browse what) {
+  session_.browse = what;
+  const std::string& folder = session_.settings.last_folder;
+  switch (what) {
+    case ViewSession::Browse::open: browser_.open("Open a strand file", folder, strandSuffix); break;
+    case ViewSession::Browse::add: browser_.open("Add a strand file beside what is open", folder, strandSuffix); break;
+    case ViewSession::Browse::scene: browser_.open("Open a scene", folder, sceneSuffix); break;
+    case ViewSession::Browse::save_scene: browser_.open("Save the scene", folder, sceneSuffix, "scene.json"); break;
+    case ViewSession::Browse::save_picture: browser_.open("Save the picture", folder, isImagePath, "hair.png"); break;
+    default: break;
+  }
+}
+
+void Viewer::takeBrowsed() {
+  const std::optional<std::string> path = browser_.draw();
+  if (!path) {
+    return;
+  }
+  session_.settings.last_folder = browser_.folder();
+  switch (session_.browse) {
+    case ViewSession::Browse::open: openPath(*path, false); break;
+    case ViewSession::Browse::add: openPath(*path, true); break;
+    case ViewSession::Browse::scene:
+      try {
+        open(loadScene(*path));
+      } catch (const std::exception& error) {
+        session_.alert = *path + ": " + error.what();
+      }
+      break;
+    case ViewSession::Browse::save_scene: saveSceneTo(*path); break;
+    case ViewSession::Browse::save_picture:
+      if (turntable_views_ > 0 && turntable_path_.empty()) {
+        turntable_path_ = *path;
+      } else {
+        savePictureTo(*path);
+      }
+      break;
+    default: break;
+  }
+}
+
+void Viewer::savePictureTo(const std::string& path, LayerIndex layer) {
+  try {
+    if (!isImagePath(path)) {
+      throw AssetError(FLK_ERROR_IO, path + ": no picture format of this extension, use .png or .exr");
+    }
+    if (!drawn_full_) {  // whatever is on the screen now, a picture is the full one
+      bool planned = false;
+      last_change_ = Clock::now() - std::chrono::seconds(10);
+      for (int attempt = 0; attempt < 4 && planPicture(planned) && planned; ++attempt) {
+        device_->screen->host().submit([&](VkCommandBuffer cmd) { device_->layers->record(cmd); });
+        afterPicture(0.0);
+      }
+    }
+    Image image = device_->layers->read(layer);
+    if (session_.scene.background) {
+      const glm::vec3 ground(*session_.scene.background);
+      image = over(image, &ground[0]);
+    }
+    int corner = -1;
+    drawLegend(image, session_.stage()->legend, corner);
+    savePicture(path, image);
+    session_.say("saved " + path);
+  } catch (const std::runtime_error& error) {
+    session_.alert = error.what();
+  }
+}
+
+void Viewer::saveSceneTo(const std::string& path) {
+  try {
+    writeWholeText(path, writeScene(session_.currentScene()) + "\n");
+    session_.say("saved " + path);
+  } catch (const std::runtime_error& error) {
+    session_.alert = error.what();
+  }
+}
+
+// One view of the turntable a frame, so that the window goes on.
+void Viewer::stepTurntable() {
+  if (turntable_views_ == 0 || turntable_path_.empty()) {
+    if (turntable_views_ > 0 && !browser_.isOpen()) {
+      turntable_views_ = 0;  // cancelled
+    }
+    return;
+  }
+  if (turntable_at_ == 0) {
+    turntable_from_ = session_.orbit;
+  } else {
+    savePictureTo(numberedPath(turntable_path_, turntable_at_ - 1));
+  }
+  if (turntable_at_ >= turntable_views_ || !session_.alert.empty()) {
+    session_.orbit = turntable_from_;
+    session_.say("saved " + std::to_string(turntable_at_) + " views, " + numberedPath(turntable_path_, 0) + " and on");
+    turntable_views_ = 0;
+    session_.busy.clear();
+    return;
+  }
+  session_.orbit = turntable_from_;
+  session_.orbit.azimuth =
+      std::remainder(turntable_from_.azimuth + 2.0 * 3.14159265358979323846 * turntable_at_ / turntable_views_, 2.0 * 3.14159265358979323846);
+  ++turntable_at_;
+}
+
+}  // namespace forelock::samples

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "viewer_app.h"
+
+#include "colored_stage.h"
+#include "view_measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace forelock::samples {
+
+namespace {
+
+constexpr double kStillAfter_s = 0.2;      // without a change the picture is drawn in full
+constexpr double kLeastShare = 0.2;
+
+// What of a scene needs hair to be uploaded anew.
+bool sameHair(const SceneAsset& a, const SceneAsset& b) {
+  return a.follow.count == b.follow.count && a.follow.radius_mm == b.follow.radius_mm && a.follow.spread_tip == b.follow.spread_tip &&
+         a.follow.seed == b.follow.seed && a.ignore_colors == b.ignore_colors && a.root_image == b.root_image;
+}
+
+}  // namespace
+
+// The stage in other colours, or in its own again.
+void Viewer::recolor() {
+  Stage& plain = *session_.plain;
+  plain.scene = session_.scene;
+  plain.scene.coloring = StrandColoring::none;
+  std::unique_ptr<Stage> colored;
+  if (session_.scene.coloring != StrandColoring::none) {
+    plain.scene.camera.placed = cameraOf(session_.orbit, session_.bounds);
+    colored = std::make_unique<Stage>(coloredStage(plain, session_.scene.coloring));
+  }
+  device_->layers->setStage(colored ? *colored : plain);
+  session_.colored = std::move(colored);
+}
+
+// Nothing opaque is cut off by the camera's planes.
+void Viewer::encloseMeshes() {
+  float low[3], high[3];
+  if (device_->layers->opaqueBounds(low, high)) {
+    for (int i = 0; i < 3; ++i) {
+      session_.bounds.low[i] = std::min(session_.bounds.low[i], static_cast<double>(low[i]));
+      session_.bounds.high[i] = std::max(session_.bounds.high[i], static_cast<double>(high[i]));
+    }
+  }
+}
+
+// What panels changed of the scene goes to the stage and the device.
+void Viewer::applyEdits() {
+  if (!session_.plain) {
+    return;
+  }
+  Scene& scene = session_.scene;
+  bool light_changed = false;
+  try {
+    if (scene.coloring != applied_.coloring) {
+      recolor();
+    }
+    session_.plain->legend = displayLegend(scene.display);
+    if (scene.head != applied_.head) {
+      for (Stage* stage : {session_.plain.get(), session_.colored.get()}) {
+        if (stage) {
+          stage->scene.head = scene.head;
+        }
+      }
+      device_->layers->renewMeshes();
+      encloseMeshes();
+    }
+    bool look = false;
+    for (size_t i = 0; i < std::min(scene.assets.size(), session_.plain->assets.size()); ++i) {
+      const SceneAsset& wanted = scene.assets[i];
+      if (writeAsset(wanted) == writeAsset(applied_.assets[i])) {
+        continue;
+      }
+      StagedAsset& asset = session_.plain->assets[i];
+      std::vector<std::string> ignored;
+      stageLook(wanted, asset, ignored);
+      placeAsset(wanted, scene.camera.up, asset);
+      if (!sameHair(wanted, applied_.assets[i]) && !session_.colored) {
+        device_->layers->renewHair(i);
+      }
+      look = light_changed = true;
+    }
+    if (look && !session_.colored) {
+      device_->layers->updateLook();
+    }
+  } catch (const AssetError& error) {
+    session_.alert = error.what();
+    scene = applied_;
+    return;
+  }
+  Scene lights = scene, before = applied_;
+  lights.assets.clear(), before.assets.clear();
+  light_changed = light_changed || lightsKey(lights) != lightsKey(before);
+  if (light_changed && session_.exposure_chosen) {
+    scene.exposure = 0.0;
+  }
+  applied_ = scene;
+  session_.plain->scene = scene;
+  session_.plain->scene.coloring = StrandColoring::none;
+  if (session_.colored) {
+    std::vector<SceneAsset> pieces = session_.colored->scene.assets;
+    session_.colored->scene = scene;
+    session_.colored->scene.assets = std::move(pieces);
+  }
+}
+
+void Viewer::moveCamera(double dt) {
+  if (session_.approach_to) {
+    const double t = seconds(Clock::now() - session_.approach_start);
+    session_.orbit = approach(*session_.approach_from, *session_.approach_to, t);
+    if (t >= kApproachSeconds) {
+      session_.approach_to.reset();
+    }
+  }
+  if (session_.turning && session_.loaded() && turntable_views_ == 0) {
+    const double turn = session_.turn_speed * (3.14159265358979323846 / 180.0) * std::min(dt, 0.2);
+    session_.orbit.azimuth = std::remainder(session_.orbit.azimuth + turn, 2.0 * 3.14159265358979323846);
+  }
+}
+
+// Plans the layers that the window needs anew. False: failed, and said so.
+bool Viewer::planPicture(bool& planned) {
+  planned = false;
+  sounding_ = false;
+  if (!session_.stage()) {
+    return true;
+  }
+  Scene& scene = session_.scene;
+  viewport_.size(scene.width, scene.height);
+  for (Stage* stage : {session_.plain.get(), session_.colored.get()}) {
+    if (stage) {
+      stage->scene.width = scene.width;
+      stage->scene.height = scene.height;
+    }
+  }
+  applied_.width = scene.width;
+  applied_.height = scene.height;
+  const Camera camera = cameraOf(session_.orbit, session_.bounds);
+  std::string key = pictureKey(session_, camera);
+  const auto now = Clock::now();
+  if (key != drawn_key_) {
+    last_change_ = now;
+  }
+  const bool moving = seconds(now - last_change_) < kStillAfter_s && turntable_views_ == 0;
+  const bool adapt = session_.settings.adapt && (full_ms_ > session_.settings.moving_budget_ms || full_ms_ == 0.0);
+  const bool cheap = moving && adapt;
+  if (key == drawn_key_ && !again_ && (drawn_full_ || cheap)) {
+    return true;
+  }
+  try {
+    if (scene.exposure <= 0.0 && session_.shaded()) {
+      scene.exposure = device_->layers->chooseExposure(camera);
+      applied_.exposure = scene.exposure;
+      session_.plain->scene.exposure = scene.exposure;
+      key = pictureKey(session_, camera);
+      if (!first_picture_) {  // the small picture that told the exposure is shown at once
+        const VkImageView small = device_->layers->hairImage(kLayerFirst).view;
+        device_->display->bind({small, small, small});
+        sounding_ = true;
+        return true;
+      }
+    }
+    LayerRequest request;
+    request.camera = camera;
+    request.exposure = scene.exposure > 0.0 ? scene.exposure : 1.0;
+    request.count_work = session_.count_work;
+    request.cheap = cheap;
+    session_.share = cheap ? cheap_share_ : 1.0;
+    const auto scaled = [&](uint32_t side) { return std::max(16u, static_cast<uint32_t>(std::lround(side * session_.share))); };
+    request.width = cheap ? std::min(scaled(scene.width), scene.width) : scene.width;
+    request.height = cheap ? std::min(scaled(scene.height), scene.height) : scene.height;
+    request.few_strands = cheap && cheap_share_ < 0.7 && device_->layers->hasFewStrands();
+    session_.few_strands = request.few_strands;
+    request.methods[kLayerFirst] = methodOf(scene);
+    if (session_.compare != Compare::none && session_.shaded()) {
+      request.methods[kLayerSecond] = session_.second;
+    }
+    if (session_.measure_error && session_.shaded() && !cheap) {
+      MethodChoice exact{FLK_METHOD_EXACT};
+      exact.capture = scene.capture;
+      request.methods[kLayerExact] = exact;
+    }
+    device_->layers->plan(request);
+    const VkImageView first = device_->layers->hairImage(kLayerFirst).view;
+    const VkImageView second = request.methods[kLayerSecond] ? device_->layers->hairImage(kLayerSecond).view : first;
+    const VkImageView opaque = device_->layers->opaqueView();
+    device_->display->bind({first, second, opaque ? opaque : first});
+    drawn_key_ = key;
+    drawn_full_ = !cheap;
+    planned = true;
+  } catch (const AssetError& error) {
+    session_.alert = error.what();
+    drawn_key_ = key;  // not again until something changes
+    drawn_full_ = true;
+    return false;
+  }
+  return true;
+}
+
+void Viewer::afterPicture(double ms) {
+  again_ = device_->layers->finish();
+  const FlkStatistics& statistics = device_->layers->facts(kLayerFirst).statistics;
+  FrameTimes times;
+  std::copy(statistics.milliseconds, statistics.milliseconds + FLK_STAGE_COUNT, times.stage_ms.begin());
+  times.total_ms = statistics.milliseconds_frame;
+  times.resolution_share = session_.share;
+  session_.times.add(times);
+  session_.frame_ms = ms;
+  if (drawn_full_) {
+    full_ms_ = ms > 0.0 ? ms : full_ms_;
+    measure();
+  } else if (ms > 0.0) {  // half way to what the budget allows, so that it does not swing
+    const double wanted = cheap_share_ * std::sqrt(session_.settings.moving_budget_ms / ms);
+    cheap_share_ = std::clamp(0.5 * (cheap_share_ + wanted), kLeastShare, 1.0);
+  }
+}
+
+void Viewer::measure() {
+  if (!session_.measure_error || !device_->layers->drawn(kLayerExact)) {
+    session_.error = session_.error_second = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  const std::vector<float> exact = device_->layers->readHair(kLayerExact);
+  session_.error = rmseOf(device_->layers->readHair(kLayerFirst), exact);
+  session_.error_second = device_->layers->drawn(kLayerSecond) ? rmseOf(device_->layers->readHair(kLayerSecond), exact)
+                                                               : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace forelock::samples

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace forelock::samples {
 
@@ -35,27 +36,46 @@ void viewMatrix(const Camera& camera, double view[16]) {
   view[15] = 1.0;
 }
 
+namespace {
+
+// Clip z = scale * view z + offset.
+struct DepthRow {
+  double scale, offset;
+};
+
+DepthRow depthRow(const Camera& camera) {
+  const double n = camera.near_m, f = camera.far_m;
+  if (camera.orthographic) {
+    return camera.reversed_depth ? DepthRow{1.0 / (f - n), f / (f - n)} : DepthRow{-1.0 / (f - n), -n / (f - n)};
+  }
+  return camera.reversed_depth ? DepthRow{n / (f - n), n * f / (f - n)} : DepthRow{-f / (f - n), -n * f / (f - n)};
+}
+
+}  // namespace
+
 void projectionMatrix(const Camera& camera, double aspect, float projection[16]) {
   std::fill(projection, projection + 16, 0.0f);
-  const double n = camera.near_m;
-  const double f = camera.far_m;
-  double depth_scale, depth_offset;  // clip z = scale * view z + offset
   if (camera.orthographic) {
     projection[0] = static_cast<float>(2.0 / (camera.view_height * aspect));
     projection[5] = static_cast<float>(-2.0 / camera.view_height);
     projection[15] = 1.0f;
-    depth_scale = camera.reversed_depth ? 1.0 / (f - n) : -1.0 / (f - n);
-    depth_offset = camera.reversed_depth ? f / (f - n) : -n / (f - n);
   } else {
     const double focal = 1.0 / std::tan(0.5 * camera.vertical_fov);
     projection[0] = static_cast<float>(focal / aspect);
     projection[5] = static_cast<float>(-focal);
     projection[11] = -1.0f;
-    depth_scale = camera.reversed_depth ? n / (f - n) : -f / (f - n);
-    depth_offset = camera.reversed_depth ? n * f / (f - n) : -n * f / (f - n);
   }
-  projection[10] = static_cast<float>(depth_scale);
-  projection[14] = static_cast<float>(depth_offset);
+  const DepthRow row = depthRow(camera);
+  projection[10] = static_cast<float>(row.scale);
+  projection[14] = static_cast<float>(row.offset);
+}
+
+double viewDepth(const Camera& camera, double value) {
+  if (camera.reversed_depth ? value <= 0.0 : value >= 1.0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const DepthRow row = depthRow(camera);
+  return camera.orthographic ? (row.offset - value) / row.scale : row.offset / (value + row.scale);
 }
 
 Camera frameBounds(const float min_bounds[3], const float max_bounds[3], double azimuth, double elevation,

@@ -37,6 +37,9 @@ void viewMatrix(const Camera& camera, double view[16]);
 // `aspect` is width / height.
 void projectionMatrix(const Camera& camera, double aspect, float projection[16]);
 
+// Depth along the view (m) of a value that projectionMatrix's depths have; infinity where it is that of the far plane, or beyond.
+double viewDepth(const Camera& camera, double value);
+
 enum class UpAxis { Y, Z };
 
 // A perspective camera that sees all of the box, seen from `azimuth` (rad; 0 is the front: +z where y is up, -y where z

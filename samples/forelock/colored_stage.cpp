@@ -53,9 +53,10 @@ class Colorer {
     }
     const StagedAsset& from = plain_.assets[index];
     StagedAsset& asset = colored_.assets.emplace_back();
-    asset.opened = assetOf(strands.view(), from.opened.label);
-    asset.opened.recipe = from.opened.recipe;
-    flkAssetGetInfo(asset.opened.asset.get(), &asset.info);
+    auto opened = std::make_shared<OpenedAsset>(assetOf(strands.view(), from.opened->label));
+    opened->recipe = from.opened->recipe;
+    asset.opened = std::move(opened);
+    flkAssetGetInfo(asset.opened->asset.get(), &asset.info);
     asset.info.has_radii = from.info.has_radii;
     asset.material = from.material;
     FlkMaterial& m = asset.material;
@@ -106,7 +107,7 @@ class Colorer {
 
 FlkStrands strandsOf(const StagedAsset& asset) {
   FlkStrands strands = {};
-  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  flkAssetGetStrands(asset.opened->asset.get(), &strands);
   return strands;
 }
 
@@ -157,7 +158,7 @@ void showGroups(const Stage& plain, Colorer& colorer, Legend& legend) {
   bool any = false;
   uint32_t number = 0;
   for (size_t i = 0; i < plain.assets.size(); ++i) {
-    const OpenedAsset& opened = plain.assets[i].opened;
+    const OpenedAsset& opened = *plain.assets[i].opened;
     EditableStrands strands = editableStrands(strandsOf(plain.assets[i]), true);
     strands.colors = oneColor(strands.vertices(), distinctColor(number));
     if (opened.groups.size() == strands.strands() && !opened.group_names.empty()) {
@@ -219,7 +220,7 @@ void showBad(const Stage& plain, Colorer& colorer, Legend& legend) {
     colorer.add(i, good, 0.25, true);
     colorer.add(i, wrong, 1.0, false);
     bad += faults.strands;
-    const std::string whose = plain.assets.size() > 1 ? asset.opened.label + ": " : "";
+    const std::string whose = plain.assets.size() > 1 ? asset.opened->label + ": " : "";
     legend.notes.push_back(whose + describeFaults(faults));
     if (asset.info.strands_in_source > asset.info.strand_count) {
       legend.notes.push_back(whose + groupedDigits(asset.info.strands_in_source - asset.info.strand_count) +
@@ -241,6 +242,7 @@ Stage coloredStage(const Stage& plain, StrandColoring coloring) {
   stage.scene.k = stage.scene.k_sort = 0;
   stage.scene.tail = FLK_TAIL_DEFAULT;
   stage.scene.low_shade = FLK_LOW_SHADE_DEFAULT;
+  stage.meshes = plain.meshes;
   stage.seen = plain.seen;
   stage.radius = plain.radius;
   stage.notes = plain.notes;

@@ -17,17 +17,6 @@ namespace {
 const glm::vec3 kGround(0.020f, 0.022f, 0.026f), kText(0.75f);
 constexpr size_t kMostSwatches = 10;
 
-glm::vec3 barColor(const Legend& legend, double share) {
-  for (size_t i = 1; i < legend.stops.size(); ++i) {
-    const auto& [low, low_color] = legend.stops[i - 1];
-    const auto& [high, high_color] = legend.stops[i];
-    if (share <= high) {
-      return glm::mix(low_color, high_color, static_cast<float>((share - low) / std::max(high - low, 1e-9)));
-    }
-  }
-  return legend.stops.back().second;
-}
-
 // How much differs from the picture's upper left pixel: hair, or the bust.
 double hairIn(const Image& image, int left, int top, int width, int height) {
   double sum = 0.0;
@@ -48,6 +37,17 @@ const char* colorWord(double share) {
 }
 
 }  // namespace
+
+glm::vec3 barColor(const Legend& legend, double share) {
+  for (size_t i = 1; i < legend.stops.size(); ++i) {
+    const auto& [low, low_color] = legend.stops[i - 1];
+    const auto& [high, high_color] = legend.stops[i];
+    if (share <= high) {
+      return glm::mix(low_color, high_color, static_cast<float>((share - low) / std::max(high - low, 1e-9)));
+    }
+  }
+  return legend.stops.back().second;
+}
 
 std::string shortNumber(double value) {
   char text[32];

@@ -23,6 +23,9 @@ Legend scaleLegend(const std::string& title, const ColorScale& scale);
 // Of FLK_DISPLAY_...; empty where colours are no data.
 Legend displayLegend(uint32_t display);
 
+// Of the bar, where it has one: linear, at a share of it in [0, 1].
+glm::vec3 barColor(const Legend& legend, double share);
+
 // Nothing where the picture is too small for it. `corner`: negative becomes the one where it covers least, the lower left one if equal;
 // the next pictures of a row keep it.
 void drawLegend(Image& image, const Legend& legend, int& corner);

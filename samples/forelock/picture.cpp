@@ -65,7 +65,7 @@ void Painter::check(FlkResult result, const char* what) const {
   if (result == FLK_SUCCESS) {
     return;
   }
-  std::string text = stage_.assets[0].opened.label + ": " + what + " failed with " + flkResultName(result);
+  std::string text = stage_.assets[0].opened->label + ": " + what + " failed with " + flkResultName(result);
   if (!host_.messages().empty()) {
     text += " (" + host_.messages().back() + ")";
   }

@@ -53,7 +53,7 @@ void printText(const Stage& stage, const Planned& planned) {
     const std::string follow = asset.follow.count == 0
                                    ? ""
                                    : " with " + std::to_string(asset.follow.count) + " follow strands beside each";
-    std::printf("%s: %s strands%s, %s segments\n", asset.opened.label.c_str(),
+    std::printf("%s: %s strands%s, %s segments\n", asset.opened->label.c_str(),
                 groupedDigits(asset.info.strand_count).c_str(), follow.c_str(), groupedDigits(segmentsOf(asset)).c_str());
   }
   std::printf("%u x %u, %s; hair in %u x %u pixels at (%u, %u)\n", stage.scene.width, stage.scene.height,
@@ -102,7 +102,7 @@ void printJson(const Stage& stage, const Planned& planned) {
   nlohmann::ordered_json json;
   json["assets"] = nlohmann::ordered_json::array();
   for (const StagedAsset& asset : stage.assets) {
-    json["assets"].push_back({{"source", asset.opened.label},
+    json["assets"].push_back({{"source", asset.opened->label},
                               {"strands", asset.info.strand_count},
                               {"follow", asset.follow.count},
                               {"segments", segmentsOf(asset)}});
@@ -141,7 +141,7 @@ int runPlan(const CLI::App& command, const PlanArguments& arguments) {
   std::string said;
   const auto check = [&](FlkResult result) {
     if (result != FLK_SUCCESS) {
-      throw AssetError(result, stage.assets[0].opened.label + ": cannot be planned: " +
+      throw AssetError(result, stage.assets[0].opened->label + ": cannot be planned: " +
                                    (said.empty() ? flkResultName(result) : said));
     }
   };

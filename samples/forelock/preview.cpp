@@ -153,12 +153,12 @@ void printText(const PreviewArguments& arguments, const HeadlessHost& host, cons
     if (asset.follow.count > 0) {
       std::printf("  strands     %s and %u follow strands beside each, within %.3g mm, of %s\n",
                   groupedDigits(asset.info.strand_count).c_str(), asset.follow.count, 1e3 * static_cast<double>(asset.follow.radius),
-                  asset.opened.label.c_str());
+                  asset.opened->label.c_str());
     }
-    const bool again = i > 0 && stage.assets[i - 1].opened.label == asset.opened.label;
+    const bool again = i > 0 && stage.assets[i - 1].opened->label == asset.opened->label;
     if (!asset.info.has_radii && stage.scene.assets[i].width_mm <= 0.0 && !again) {
       std::printf("  width       %.3g mm: %s has none, so a share of its size by its strands%s; --width MM changes it\n",
-                  asset.width_mm, asset.opened.label.c_str(), asset.follow.count > 0 ? ", follow strands too" : "");
+                  asset.width_mm, asset.opened->label.c_str(), asset.follow.count > 0 ? ", follow strands too" : "");
     }
   }
 }

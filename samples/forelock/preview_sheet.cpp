@@ -31,7 +31,7 @@ std::string factsOf(const Stage& stage) {
   std::string text;
   for (const StagedAsset& asset : stage.assets) {
     const FlkAssetInfo& info = asset.info;
-    text += asset.opened.format + ", " + groupedDigits(info.strand_count) + " strands";
+    text += asset.opened->format + ", " + groupedDigits(info.strand_count) + " strands";
     if (info.strands_in_source != info.strand_count) {
       text += " of " + groupedDigits(info.strands_in_source);
     }
@@ -45,14 +45,14 @@ std::string factsOf(const Stage& stage) {
     }
     text += "\nhas" + std::string(info.has_radii ? " widths" : "") + (info.has_root_uvs ? " root-UVs" : "") +
             (info.has_inverse_masses ? " masses" : "") + (info.has_colors ? " colours" : "") + " positions\n";
-    for (const AssetFinding& finding : findingsOf(asset.opened)) {
+    for (const AssetFinding& finding : findingsOf(*asset.opened)) {
       if (finding.severity != FLK_SEVERITY_INFO) {
         text += finding.code + " x " + groupedDigits(finding.count) + "\n";
       }
     }
   }
   for (const std::string& note : stage.notes) {
-    const std::string prefix = stage.assets[0].opened.label + ": ";
+    const std::string prefix = stage.assets[0].opened->label + ": ";
     text += (note.rfind(prefix, 0) == 0 ? note.substr(prefix.size()) : note) + "\n";
   }
   return text;
@@ -71,7 +71,7 @@ Image drawAssetSheet(HeadlessHost& host, const Scene& wanted, const std::string&
   Stage& stage = preview.stage;
   std::string title;
   for (const StagedAsset& asset : stage.assets) {
-    title += (title.empty() ? "" : ", ") + asset.opened.label;
+    title += (title.empty() ? "" : ", ") + asset.opened->label;
   }
   ContactSheet sheet(layoutSheet(kTiles, stage.scene.width, stage.scene.height, kColumns, true), title);
   Progress progress("drawing " + out);

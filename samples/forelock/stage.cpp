@@ -47,12 +47,12 @@ void collectSeen(Stage& stage) {
   const size_t step = vertices / kMostSeen + 1;
   for (const StagedAsset& asset : stage.assets) {
     FlkStrands strands = {};
-    flkAssetGetStrands(asset.opened.asset.get(), &strands);
+    flkAssetGetStrands(asset.opened->asset.get(), &strands);
     const double* m = asset.world_from_hair;
     const std::vector<uint8_t> stray = findStrayStrands(strands);
     if (!stray.empty()) {
       const auto count = static_cast<uint64_t>(std::count(stray.begin(), stray.end(), uint8_t{1}));
-      stage.notes.push_back(asset.opened.label + ": " + groupedDigits(count) + (count == 1 ? " strand lies" : " strands lie") +
+      stage.notes.push_back(asset.opened->label + ": " + groupedDigits(count) + (count == 1 ? " strand lies" : " strands lie") +
                             " so far off that the picture leaves " + (count == 1 ? "it" : "them") + " outside; first is strand " +
                             std::to_string(std::find(stray.begin(), stray.end(), uint8_t{1}) - stray.begin()));
     }
@@ -90,7 +90,7 @@ void collectSeen(Stage& stage) {
 // Strands that hang along another axis than the one that was named: told, never turned.
 void noteUpAxis(Stage& stage, const StagedAsset& asset) {
   FlkStrands strands = {};
-  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  flkAssetGetStrands(asset.opened->asset.get(), &strands);
   glm::dvec3 fall(0.0);
   for (uint32_t s = 0; s < strands.strand_count; ++s) {
     const float* root = strands.positions + size_t{3} * strands.first_vertex[s];
@@ -106,37 +106,19 @@ void noteUpAxis(Stage& stage, const StagedAsset& asset) {
   const float* high = asset.info.max_bounds;
   const int up = z_up ? 2 : 1, or_up = z_up ? 1 : 2;  // hair that is combed back is not as long as it is high
   if (other < -0.5 && std::fabs(along) < 0.35 && high[or_up] - low[or_up] > high[up] - low[up]) {
-    stage.notes.push_back(asset.opened.label + ": strands hang along -" + (z_up ? "y" : "z") + "; if that is down, use --up " +
+    stage.notes.push_back(asset.opened->label + ": strands hang along -" + (z_up ? "y" : "z") + "; if that is down, use --up " +
                           (z_up ? "y" : "z"));
   }
 }
 
-StagedMesh openMesh(const SceneMesh& wanted, UpAxis up) {
-  StagedMesh staged;
-  {
-    Progress progress("opening " + wanted.source);
-    staged.mesh = readMesh(wanted.source, [&](uint64_t done, uint64_t total) { progress.update(done, total); });
+// With a progress bar on the terminal, unless there is somebody else to tell.
+template <class Read>
+auto readWith(const std::string& source, const ProgressFunction& progress, const Read& read) {
+  if (progress) {
+    return read(progress);
   }
-  if (wanted.color) {
-    staged.mesh.albedo = glm::vec3(*wanted.color);
-  }
-  double m[16];
-  place(wanted, up, m);
-  staged.low = glm::vec3(std::numeric_limits<float>::max());
-  staged.high = -staged.low;
-  for (size_t v = 0; v < staged.mesh.vertices(); ++v) {
-    float* position = &staged.mesh.positions[3 * v];
-    float* normal = &staged.mesh.normals[3 * v];
-    const glm::dvec3 p(position[0], position[1], position[2]), n(normal[0], normal[1], normal[2]);
-    for (int axis = 0; axis < 3; ++axis) {
-      const glm::dvec3 row(m[axis], m[4 + axis], m[8 + axis]);
-      position[axis] = static_cast<float>(glm::dot(row, p) + m[12 + axis]);
-      normal[axis] = static_cast<float>(glm::dot(row, n) / wanted.scale);
-      staged.low[axis] = std::min(staged.low[axis], position[axis]);
-      staged.high[axis] = std::max(staged.high[axis], position[axis]);
-    }
-  }
-  return staged;
+  Progress bar("opening " + source);
+  return read([&](uint64_t done, uint64_t total) { bar.update(done, total); });
 }
 
 // No part of a box is cut off by the camera's planes.
@@ -151,6 +133,40 @@ void enclose(const glm::dvec3& low, const glm::dvec3& high, double nearest, Came
 
 void placeAsset(const SceneAsset& wanted, UpAxis up, StagedAsset& asset) { place(wanted, up, asset.world_from_hair); }
 
+void placeMesh(const SceneMesh& wanted, UpAxis up, StagedMesh& mesh) {
+  place(wanted, up, mesh.world_from_mesh);
+  mesh.albedo = wanted.color ? glm::vec3(*wanted.color) : mesh.read->albedo;
+  const double* m = mesh.world_from_mesh;
+  mesh.low = glm::vec3(std::numeric_limits<float>::max());
+  mesh.high = -mesh.low;
+  for (size_t v = 0; v < mesh.read->vertices(); ++v) {
+    const float* p = &mesh.read->positions[3 * v];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = m[axis] * static_cast<double>(p[0]) + m[4 + axis] * static_cast<double>(p[1]) + m[8 + axis] * static_cast<double>(p[2]);
+      mesh.low[axis] = std::min(mesh.low[axis], static_cast<float>(at + m[12 + axis]));
+      mesh.high[axis] = std::max(mesh.high[axis], static_cast<float>(at + m[12 + axis]));
+    }
+  }
+}
+
+std::shared_ptr<const OpenedAsset> findOpen(const OpenFiles& files, const SceneAsset& wanted) {
+  for (const auto& [asset, opened] : files.assets) {
+    if (asset.source == wanted.source && asset.points_per_strand == wanted.points_per_strand) {
+      return opened;
+    }
+  }
+  return nullptr;
+}
+
+std::shared_ptr<const OpaqueMesh> findOpen(const OpenFiles& files, const SceneMesh& wanted) {
+  for (const auto& [mesh, read] : files.meshes) {
+    if (mesh.source == wanted.source) {
+      return read;
+    }
+  }
+  return nullptr;
+}
+
 std::string passWork(const FlkPassInfo& pass) {
   if (pass.indices > 0) {
     return groupedDigits(pass.indices) + " indices";
@@ -164,7 +180,7 @@ std::string passWork(const FlkPassInfo& pass) {
   return "fills and barriers";
 }
 
-Stage openStage(const Scene& scene, const ProgressFunction& progress) {
+Stage openStage(const Scene& scene, const ProgressFunction& progress, const OpenFiles& open) {
   Stage stage;
   stage.scene = scene;
   bool on_bust = false;
@@ -172,22 +188,23 @@ Stage openStage(const Scene& scene, const ProgressFunction& progress) {
   std::string known;
   for (const SceneAsset& wanted : scene.assets) {
     StagedAsset& asset = stage.assets.emplace_back();
-    {
-      Progress bar("opening " + wanted.source);
-      const ProgressFunction own = [&](uint64_t done, uint64_t total) { bar.update(done, total); };
-      asset.opened = openAsset(wanted.source, progress ? progress : own, {wanted.points_per_strand, true});  // --watch: its exporter may be at it
+    asset.opened = findOpen(open, wanted);
+    if (!asset.opened) {
+      asset.opened = std::make_shared<OpenedAsset>(readWith(wanted.source, progress, [&](const ProgressFunction& tell) {
+        return openAsset(wanted.source, tell, {wanted.points_per_strand, true});  // copied, for --watch: its exporter may be at it
+      }));
+      printMessages(*asset.opened->messages, false);
     }
-    printMessages(*asset.opened.messages, false);
-    flkAssetGetInfo(asset.opened.asset.get(), &asset.info);
+    flkAssetGetInfo(asset.opened->asset.get(), &asset.info);
     stageLook(wanted, asset, stage.notes);
     placeAsset(wanted, scene.camera.up, asset);
-    on_bust = on_bust || (asset.opened.recipe && asset.opened.recipe->drape_on_bust);
+    on_bust = on_bust || (asset.opened->recipe && asset.opened->recipe->drape_on_bust);
   }
   for (const StagedAsset& asset : stage.assets) {  // only now, because the list no longer moves
-    if (!asset.opened.recipe) {
+    if (!asset.opened->recipe) {
       continue;
     }
-    for (const RecipeCamera& camera : asset.opened.recipe->cameras) {
+    for (const RecipeCamera& camera : asset.opened->recipe->cameras) {
       known += " " + camera.name;
       stored = !stored && camera.name == scene.camera.name ? &camera : stored;
     }
@@ -204,14 +221,20 @@ Stage openStage(const Scene& scene, const ProgressFunction& progress) {
     stage.scene.height = stored ? stored->height : 1024;
   }
   for (const SceneMesh& wanted : scene.meshes) {
-    stage.meshes.push_back(openMesh(wanted, scene.camera.up));
+    StagedMesh& mesh = stage.meshes.emplace_back();
+    mesh.read = findOpen(open, wanted);
+    if (!mesh.read) {
+      mesh.read = std::make_shared<OpaqueMesh>(
+          readWith(wanted.source, progress, [&](const ProgressFunction& tell) { return readMesh(wanted.source, tell); }));
+    }
+    placeMesh(wanted, scene.camera.up, mesh);
   }
   if (!scene.head) {
     stage.scene.head = on_bust;
   }
   collectSeen(stage);
   for (const StagedAsset& asset : stage.assets) {
-    if (!asset.opened.recipe && !stage.scene.camera.placed) {
+    if (!asset.opened->recipe && !stage.scene.camera.placed) {
       noteUpAxis(stage, asset);
     }
   }
@@ -284,7 +307,7 @@ bool stageHarmonics(const Stage& stage, Harmonics& harmonics) {
 
 FlkHairDesc stagedHairDesc(const StagedAsset& asset) {
   FlkHairDesc desc = hairDesc();
-  desc.asset = asset.opened.asset.get();
+  desc.asset = asset.opened->asset.get();
   desc.material = &asset.material;
   desc.flags = asset.flags;
   desc.follow = asset.follow;
@@ -298,7 +321,7 @@ std::vector<Hair> planHairs(FlkContext context, const Stage& stage) {
     Hair hair;
     const FlkResult result = create(context, stagedHairDesc(asset), hair);
     if (result != FLK_SUCCESS || flkHairSetTransform(hair, asset.world_from_hair) != FLK_SUCCESS) {
-      throw AssetError(result, asset.opened.label + ": no hair can be made of it, " + flkResultName(result));
+      throw AssetError(result, asset.opened->label + ": no hair can be made of it, " + flkResultName(result));
     }
     hairs.push_back(std::move(hair));
   }

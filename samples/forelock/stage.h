@@ -8,13 +8,15 @@
 
 #include <forelock/forelock.hpp>
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace forelock::samples {
 
 struct StagedAsset {
-  OpenedAsset opened;
+  std::shared_ptr<const OpenedAsset> opened;
   FlkAssetInfo info;
   FlkMaterial material;       // with the width and colour that were asked for
   FlkFollowStrands follow;
@@ -27,8 +29,10 @@ struct StagedAsset {
 };
 
 struct StagedMesh {
-  OpaqueMesh mesh;  // in its place (world, m), with its colour
-  glm::vec3 low{0.0f}, high{0.0f};
+  std::shared_ptr<const OpaqueMesh> read;  // as the file has it
+  glm::vec3 albedo{0.0f};                  // linear
+  double world_from_mesh[16];
+  glm::vec3 low{0.0f}, high{0.0f};         // (world, m) of its vertices
 };
 
 struct Stage {
@@ -43,12 +47,22 @@ struct Stage {
   double aspect() const { return static_cast<double>(scene.width) / static_cast<double>(scene.height); }
 };
 
-// Shows progress, or tells it to `progress`; prints what the library has to say of the assets. With the scene's colouring. Throws
-// AssetError or UsageError.
-Stage openStage(const Scene& scene, const ProgressFunction& progress = {});
+// What is open already, and need not be read again: a scene's own entries tell which it is.
+struct OpenFiles {
+  std::vector<std::pair<SceneAsset, std::shared_ptr<const OpenedAsset>>> assets;
+  std::vector<std::pair<SceneMesh, std::shared_ptr<const OpaqueMesh>>> meshes;
+};
+std::shared_ptr<const OpenedAsset> findOpen(const OpenFiles& files, const SceneAsset& wanted);
+std::shared_ptr<const OpaqueMesh> findOpen(const OpenFiles& files, const SceneMesh& wanted);
+
+// Shows progress, or tells it to `progress`; prints what the library has to say of the assets that it reads. With the scene's colouring.
+// Throws AssetError or UsageError.
+Stage openStage(const Scene& scene, const ProgressFunction& progress = {}, const OpenFiles& open = {});
 
 // world_from_hair as the scene places it.
 void placeAsset(const SceneAsset& wanted, UpAxis up, StagedAsset& asset);
+// Where the scene wants a mesh that was read, and its colour.
+void placeMesh(const SceneMesh& wanted, UpAxis up, StagedMesh& mesh);
 
 // A sentence on what a pass goes over: "1,234 segments".
 std::string passWork(const FlkPassInfo& pass);
@@ -66,7 +80,7 @@ glm::dvec3 towardsLight(const SceneLight& light, const Camera& camera);
 // The sky's or the scene's own coefficients, before exposure; false: the scene has none.
 bool stageHarmonics(const Stage& stage, Harmonics& harmonics);
 
-// The bust, where the scene has it, and its meshes.
+// The bust, where the scene has it, and its meshes: in their places (world, m), with their colours.
 std::vector<OpaqueMesh> opaqueMeshes(const Stage& stage);
 
 // What a plan without a device is to know of them. `shadow`: any, that lives as long as the frame.

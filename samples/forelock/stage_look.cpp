@@ -25,7 +25,7 @@ glm::dvec3 mean(const float* rgb, size_t count) {
 void loadRootImage(const std::string& path, StagedAsset& asset) {
   if (!asset.info.has_root_uvs) {
     throw AssetError(FLK_ERROR_INVALID_ARGUMENT,
-                     asset.opened.label + ": has no root UVs, which root_image needs: .tfx files and grooms have them");
+                     asset.opened->label + ": has no root UVs, which root_image needs: .tfx files and grooms have them");
   }
   Image image;
   try {
@@ -43,14 +43,14 @@ void loadRootImage(const std::string& path, StagedAsset& asset) {
 
 // What a centimetre or millimetre is taken for where the library suspects that it is the asset's unit; else 1.
 double suspectedUnit(const SceneAsset& wanted, const StagedAsset& asset) {
-  const std::vector<AssetFinding> findings = findingsOf(asset.opened);
+  const std::vector<AssetFinding> findings = findingsOf(*asset.opened);
   const bool suspect = std::any_of(findings.begin(), findings.end(), [](const AssetFinding& f) { return f.code == "UNIT_SUSPECT"; });
   if (!suspect || wanted.scale != 1.0) {
     return 1.0;
   }
   // The library looks at the farthest coordinate: of strands astray, or far from the origin, that is no size of the hair.
   FlkStrands strands = {};
-  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  flkAssetGetStrands(asset.opened->asset.get(), &strands);
   const std::vector<uint8_t> stray = findStrayStrands(strands);
   glm::vec3 low(1e30f), high(-1e30f);
   for (uint32_t s = 0; s < strands.strand_count; ++s) {
@@ -81,7 +81,7 @@ void stageLook(const SceneAsset& wanted, StagedAsset& asset, std::vector<std::st
   if (unit != 1.0) {
     asset.material.fibre_spacing *= static_cast<float>(unit);
     asset.follow.radius *= static_cast<float>(unit);
-    notes.push_back(asset.opened.label + ": coordinates suggest " + (unit > 100.0 ? "millimetres" : "centimetres") +
+    notes.push_back(asset.opened->label + ": coordinates suggest " + (unit > 100.0 ? "millimetres" : "centimetres") +
                     ", so millimetres of widths and what shadows take for the distance of fibres are " + shortNumber(unit) +
                     " times as large as for metres; `forelock convert --scale` makes it metres");
   }
@@ -89,7 +89,7 @@ void stageLook(const SceneAsset& wanted, StagedAsset& asset, std::vector<std::st
   asset.width_mm = diameter_mm * scale / unit;
 
   FlkStrands strands = {};
-  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  flkAssetGetStrands(asset.opened->asset.get(), &strands);
   const bool own_colors = strands.colors && !wanted.ignore_colors;
   if (!wanted.root_image.empty()) {
     loadRootImage(wanted.root_image, asset);

@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -12,13 +13,37 @@
 
 namespace forelock::samples {
 
+namespace {
+
+OpaqueMesh inPlace(const StagedMesh& staged) {
+  OpaqueMesh mesh = *staged.read;
+  mesh.albedo = staged.albedo;
+  const double* m = staged.world_from_mesh;
+  const glm::dmat3 turn(glm::dvec3(m[0], m[1], m[2]), glm::dvec3(m[4], m[5], m[6]), glm::dvec3(m[8], m[9], m[10]));
+  const glm::dvec3 shift(m[12], m[13], m[14]);
+  const double scale = glm::length(turn[0]);  // in all directions the same
+  for (size_t v = 0; v < mesh.vertices(); ++v) {
+    float* position = &mesh.positions[3 * v];
+    float* normal = &mesh.normals[3 * v];
+    const glm::dvec3 p = turn * glm::dvec3(position[0], position[1], position[2]) + shift;
+    const glm::dvec3 n = turn * glm::dvec3(normal[0], normal[1], normal[2]) / scale;
+    for (int axis = 0; axis < 3; ++axis) {
+      position[axis] = static_cast<float>(p[axis]);
+      normal[axis] = static_cast<float>(n[axis]);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
 std::vector<OpaqueMesh> opaqueMeshes(const Stage& stage) {
   std::vector<OpaqueMesh> meshes;
   if (*stage.scene.head) {
     meshes.push_back(bustMesh());
   }
   for (const StagedMesh& staged : stage.meshes) {
-    meshes.push_back(staged.mesh);
+    meshes.push_back(inPlace(staged));
   }
   return meshes;
 }

@@ -71,7 +71,7 @@ std::optional<std::string> FileBrowser::draw() {
     open_ = false;
     return chosen;
   }
-  std::optional<ui::Scope> scope(std::in_place, "File");
+  std::optional<ui::Scope> scope(std::in_place, "Files");
   const auto finish = [&](const std::string& path) {
     chosen = path;
     open_ = false;

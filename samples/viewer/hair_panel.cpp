@@ -62,12 +62,52 @@ void followWidgets(SceneAsset& wanted) {
   }
 }
 
-void placeWidgets(SceneAsset& wanted) {
+template <class Placed>  // an asset or a mesh
+void placeWidgets(Placed& wanted) {
   ui::slide("Turn", wanted.turn_deg, -180.0, 180.0, "Degrees about the axis that is up", "%.0f");
-  ui::slide("Scale", wanted.scale, 1e-3, 1e3, "Metres a unit of the asset: 0.01 for one in centimetres", "%.4g", true);
+  ui::slide("Scale", wanted.scale, 1e-3, 1e3, "Metres a unit of the file: 0.01 for one in centimetres", "%.4g", true);
   for (int i = 0; i < 3; ++i) {
     const char* names[] = {"x (m)", "y (m)", "z (m)"};
-    ui::slide(names[i], wanted.position[i], -2.0, 2.0, "Where the asset's origin is", "%.3f");
+    ui::slide(names[i], wanted.position[i], -2.0, 2.0, "Where the file's origin is", "%.3f");
+  }
+}
+
+void meshSection(ViewSession& session) {
+  const ui::Section section("Head, meshes", true, "Opaque surfaces beside the hair: they hide it, shadow it and take its shadow");
+  if (!section) {
+    return;
+  }
+  bool head = session.plain && session.plain->scene.head.value_or(false);
+  if (ui::checkbox("Head", head, "A bust under the hair. The grooms of the project lie on it.")) {
+    session.scene.head = head;
+  }
+  for (size_t i = 0; session.plain && i < std::min(session.scene.meshes.size(), session.plain->meshes.size()); ++i) {
+    const ui::Scope scope("Mesh " + std::to_string(i + 1));
+    SceneMesh& wanted = session.scene.meshes[i];
+    const OpaqueMesh& read = *session.plain->meshes[i].read;
+    const bool open = ImGui::TreeNode("##mesh", "%s", shortName(wanted.source).c_str());
+    ui::tip(wanted.source.c_str());
+    ui::noteItem("Mesh", open);
+    if (!open) {
+      continue;
+    }
+    ui::faintText(groupedDigits(read.vertices()) + " vertices, " + groupedDigits(read.indices.size() / 3) + " triangles");
+    float rgb[3];
+    const glm::vec3 color = wanted.color ? glm::vec3(*wanted.color) : read.albedo;
+    std::copy(&color[0], &color[0] + 3, rgb);
+    if (ui::color("Colour", rgb, "Of its surface: what share of light it gives back")) {
+      wanted.color = glm::dvec3(rgb[0], rgb[1], rgb[2]);
+    }
+    placeWidgets(wanted);
+    if (ui::button("Remove", "Out of the scene; the file stays as it is")) {
+      Scene without = session.sceneToArrange();
+      without.meshes.erase(without.meshes.begin() + static_cast<std::ptrdiff_t>(i));
+      session.requests.arrange = without;
+    }
+    ImGui::TreePop();
+  }
+  if (ui::button("Add a mesh...", "A glTF or GLB file of triangles. It can also be dragged into the window.", session.loaded())) {
+    session.requests.add_mesh = true;
   }
 }
 
@@ -87,10 +127,6 @@ void hairPanel(ViewSession& session) {
       if (session.stage() && !session.stage()->legend.title.empty()) {
         ui::faintText(legendText(session.stage()->legend));
       }
-      bool head = session.plain && session.plain->scene.head.value_or(false);
-      if (ui::checkbox("Head", head, "A bust under the hair, which hides it, shadows it and takes its shadow. Grooms lie on it.")) {
-        session.scene.head = head;
-      }
     }
   }
   {
@@ -102,11 +138,11 @@ void hairPanel(ViewSession& session) {
         ImGui::TextUnformatted(shortName(session.scene.assets[i].source).c_str());
         ui::tip(session.scene.assets[i].source.c_str());
         ui::faintText(groupedDigits(asset.info.strand_count) + " strands, " + groupedDigits(asset.info.vertex_count) + " vertices, " +
-                      asset.opened.format);
+                      asset.opened->format);
         if (session.scene.assets.size() > 1 && ui::smallButton("Remove", "Out of the scene; the file stays as it is")) {
-          Scene without = session.currentScene();
+          Scene without = session.sceneToArrange();
           without.assets.erase(without.assets.begin() + static_cast<std::ptrdiff_t>(i));
-          session.requests.open = without;
+          session.requests.arrange = without;
         }
       }
       if (ui::button("Open...", "A strand file instead of what is open (Ctrl O). Files can also be dragged into the window.")) {
@@ -121,6 +157,7 @@ void hairPanel(ViewSession& session) {
       }
     }
   }
+  meshSection(session);
   for (size_t i = 0; session.plain && i < std::min(session.scene.assets.size(), session.plain->assets.size()); ++i) {
     const bool one = session.scene.assets.size() == 1;
     const std::string title = one ? "Material" : "Material " + std::to_string(i + 1);

@@ -97,11 +97,11 @@ void strandPanel(ViewSession& session) {
   options.faults = a < session.faults.size() ? &session.faults[a] : nullptr;
   options.follow = asset.follow.count;
   options.width_scale = static_cast<double>(asset.material.width_scale);
-  for (const auto& [name, value] : strandFacts(asset.opened, strand, options).lines) {
+  for (const auto& [name, value] : strandFacts(*asset.opened, strand, options).lines) {
     ui::fact(name.c_str(), value);
   }
   FlkStrands strands = {};
-  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  flkAssetGetStrands(asset.opened->asset.get(), &strands);
   const std::vector<VertexRow> rows = vertexRows(strands, strand);
   if (ImGui::BeginTable("vertices", 4, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
                         ImVec2(0.0f, ImGui::GetFontSize() * 14.0f))) {

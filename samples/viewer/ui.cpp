@@ -17,11 +17,6 @@ struct Notes {
 };
 Notes notes;  // Dear ImGui has one context, and so has this
 
-float encode(float linear) {
-  const float c = std::clamp(linear, 0.0f, 1.0f);
-  return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
-}
-
 float decode(float coded) { return coded <= 0.04045f ? coded / 12.92f : std::pow((coded + 0.055f) / 1.055f, 2.4f); }
 
 // The prefix without its last part.
@@ -41,15 +36,20 @@ void begin(bool note) {
   notes.note = note;
 }
 
+float encodeSrgb(float linear) {
+  const float c = std::clamp(linear, 0.0f, 1.0f);
+  return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+}
+
 const std::vector<Item>& items() { return notes.items; }
 void reveal(const std::string& name) { notes.wanted = name; }
 
-void noteItem(const std::string& label, bool open) {
+void noteItem(const std::string& label, bool open, bool menu) {
   if (!notes.note) {
     return;
   }
   const std::string name = notes.prefix + label.substr(0, label.find("##"));
-  notes.items.push_back({name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), open});
+  notes.items.push_back({name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), open, menu});
   if (name == notes.wanted) {
     notes.wanted.clear();
     ImGui::SetScrollHereY(0.5f);
@@ -170,7 +170,7 @@ bool slide(const char* label, uint32_t& value, uint32_t low, uint32_t high, cons
 }
 
 bool color(const char* label, float linear[3], const char* words) {
-  float coded[3] = {encode(linear[0]), encode(linear[1]), encode(linear[2])};
+  float coded[3] = {encodeSrgb(linear[0]), encodeSrgb(linear[1]), encodeSrgb(linear[2])};
   labelWidth();
   const bool changed = ImGui::ColorEdit3(label, coded, ImGuiColorEditFlags_DisplayHex);
   if (changed) {

@@ -11,7 +11,8 @@ namespace forelock::samples::ui {
 struct Item {
   std::string name;   // "Section/Label", "Section/Label/Option" of an open list
   ImVec2 low, high;   // where it is in the window
-  bool open = false;  // of a section
+  bool open = false;  // of a section, a list or a menu
+  bool menu = false;  // of the menu bar
 };
 
 // Starts a frame. Items are noted for scripts only.
@@ -19,7 +20,7 @@ void begin(bool note);
 const std::vector<Item>& items();
 // The next frame scrolls this item into view.
 void reveal(const std::string& name);
-void noteItem(const std::string& label, bool open = false);  // the last widget of Dear ImGui
+void noteItem(const std::string& label, bool open = false, bool menu = false);  // the last widget of Dear ImGui
 
 class Section {  // a heading that opens and closes
 public:
@@ -54,6 +55,7 @@ bool selectable(const std::string& label, bool selected);
 bool menuItem(const char* label, const char* keys, bool enabled = true);
 bool menuCheck(const char* label, const char* keys, bool& value);
 bool textInput(const char* label, std::string& text, const char* tip);
+float encodeSrgb(float linear);
 void tip(const char* text);      // of the last widget
 void text(const std::string& words);         // wrapped
 void faintText(const std::string& words);    // wrapped, in grey

@@ -90,6 +90,23 @@ bool ViewLayers::opaqueBounds(float low[3], float high[3]) const {
   return true;
 }
 
+OpaqueDepth ViewLayers::opaqueDepths(uint32_t width, uint32_t height) {
+  if (!opaque_drawn_ || opaque_drawn_->empty() || !last_.meshes) {
+    return {};
+  }
+  const GpuImage& image = opaque_drawn_->depth();
+  const std::vector<float> depths = host_.readImage(image, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+  if (depths.size() != size_t{image.width} * image.height) {
+    return {};
+  }
+  const Camera camera = last_.camera;
+  const double across = static_cast<double>(image.width) / width, down = static_cast<double>(image.height) / height;
+  return [=, w = image.width, h = image.height](const glm::dvec2& pixel) {
+    const auto x = static_cast<uint32_t>(std::clamp(pixel.x * across, 0.0, w - 1.0)), y = static_cast<uint32_t>(std::clamp(pixel.y * down, 0.0, h - 1.0));
+    return viewDepth(camera, static_cast<double>(depths[size_t{y} * w + x]));
+  };
+}
+
 void ViewLayers::setFewStrands(const std::vector<std::unique_ptr<OpenedAsset>>& assets) {
   few_.clear();
   for (size_t i = 0; stage_ && i < std::min(assets.size(), stage_->assets.size()); ++i) {

@@ -5,6 +5,7 @@
 #include "gpu_resources.h"
 #include "opaque_scene.h"
 #include "picture.h"
+#include "strand_pick.h"
 #include "view_gpu.h"
 #include "view_method.h"
 
@@ -83,6 +84,8 @@ public:
   VkImageView opaqueView() const { return opaque_ && !opaque_->empty() ? opaque_color_.view : VK_NULL_HANDLE; }
   // Box around what is opaque (m); false: nothing is.
   bool opaqueBounds(float low[3], float high[3]) const;
+  // View depths (m) of what is opaque in the last picture, for pixels of one of `width` x `height`; empty: nothing is. Reads them back.
+  OpaqueDepth opaqueDepths(uint32_t width, uint32_t height);
   const GpuImage& hairImage(LayerIndex layer) const { return slots_[layer].hair; }  // SHADER_READ_ONLY_OPTIMAL once drawn
 
   // Linear, premultiplied, hair over what is opaque, as `forelock preview` has it before its background.

@@ -3,6 +3,7 @@
 
 #include "colored_stage.h"
 #include "commands.h"
+#include "gltf_reader.h"
 #include "strand_lod.h"
 
 #include <algorithm>
@@ -41,12 +42,17 @@ std::string ViewLoader::label() const {
   return label_;
 }
 
-void ViewLoader::open(const Scene& scene) {
+void ViewLoader::open(const Scene& scene, const OpenFiles& files) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    label_ = scene.assets.empty() ? "" : scene.assets.back().source;
+    label_ = scene.meshes.empty() ? "" : scene.meshes.back().source;
+    for (const SceneAsset& asset : scene.assets) {
+      if (!findOpen(files, asset)) {
+        label_ = asset.source;
+      }
+    }
     if (busy_) {
-      next_ = std::make_unique<Scene>(scene);
+      next_ = std::make_unique<Wanted>(Wanted{scene, files});
       return;
     }
     busy_ = true;
@@ -55,16 +61,39 @@ void ViewLoader::open(const Scene& scene) {
   if (thread_.joinable()) {
     thread_.join();
   }
-  thread_ = std::thread([this, scene] { run(scene); });
+  thread_ = std::thread([this, wanted = Wanted{scene, files}] { run(wanted); });
 }
 
-void ViewLoader::run(Scene scene) {
+void ViewLoader::readAssets(Wanted& wanted, const ProgressFunction& progress) {
+  std::vector<SceneAsset> hair;
+  for (const SceneAsset& asset : wanted.scene.assets) {
+    try {
+      if (!findOpen(wanted.files, asset)) {
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          label_ = asset.source;
+        }
+        share_ = -1.0f;
+        auto opened = std::make_shared<OpenedAsset>(openAsset(asset.source, progress, {asset.points_per_strand, true}));
+        printMessages(*opened->messages, false);
+        wanted.files.assets.emplace_back(asset, std::move(opened));
+      }
+      hair.push_back(asset);
+    } catch (const GltfError& error) {
+      if (error.id != "GLTF_MESH_ONLY") {
+        throw;
+      }
+      wanted.scene.meshes.emplace_back().source = asset.source;
+    }
+  }
+  wanted.scene.assets = std::move(hair);
+}
+
+void ViewLoader::run(Wanted wanted) {
   for (;;) {
     const auto start = std::chrono::steady_clock::now();
     auto result = std::make_unique<LoadedStage>();
     try {
-      Scene plain = scene;
-      plain.coloring = StrandColoring::none;
       std::atomic<int64_t> woken{0};  // (ms) since the start
       const ProgressFunction progress = [&](uint64_t done, uint64_t total) {
         share_ = total > 0 ? static_cast<float>(done) / static_cast<float>(total) : -1.0f;
@@ -74,17 +103,25 @@ void ViewLoader::run(Scene scene) {
           wake_();
         }
       };
-      result->plain = std::make_unique<Stage>(openStage(plain, progress));
-      if (scene.coloring != StrandColoring::none) {
-        result->plain->scene.coloring = scene.coloring;
-        result->colored = std::make_unique<Stage>(coloredStage(*result->plain, scene.coloring));
+      readAssets(wanted, progress);
+      if (wanted.scene.assets.empty()) {
+        result->meshes = wanted.scene.meshes;
+        result->error = wanted.scene.meshes.back().source + ": is a mesh without hair. Open hair first, then this beside it.";
+      } else {
+        Scene plain = wanted.scene;
+        plain.coloring = StrandColoring::none;
+        result->plain = std::make_unique<Stage>(openStage(plain, progress, wanted.files));
+        if (wanted.scene.coloring != StrandColoring::none) {
+          result->plain->scene.coloring = wanted.scene.coloring;
+          result->colored = std::make_unique<Stage>(coloredStage(*result->plain, wanted.scene.coloring));
+        }
       }
     } catch (const std::exception& error) {
       result->plain.reset();
       result->error = error.what();
     }
     result->seconds = secondsSince(start);
-    std::unique_ptr<Scene> next;
+    std::unique_ptr<Wanted> next;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       next = std::move(next_);
@@ -97,7 +134,7 @@ void ViewLoader::run(Scene scene) {
     if (!next) {
       return;
     }
-    scene = std::move(*next);
+    wanted = std::move(*next);
     share_ = -1.0f;
   }
 }
@@ -137,12 +174,12 @@ void ViewLoader::runStudy(const Stage& plain, const std::vector<double>& opaciti
     if (asset.info.strand_count > wanted && !stop_study_) {
       try {
         FlkStrands strands = {};
-        flkAssetGetStrands(asset.opened.asset.get(), &strands);
+        flkAssetGetStrands(asset.opened->asset.get(), &strands);
         EditableStrands edited = editableStrands(strands, true);
         orderStrands(edited, evenOrder(edited));
         if (!stop_study_) {
           keepFirstStrands(edited, wanted, opacities[i]);
-          few = std::make_unique<OpenedAsset>(assetOf(edited.view(), asset.opened.label));
+          few = std::make_unique<OpenedAsset>(assetOf(edited.view(), asset.opened->label));
         }
       } catch (const std::exception&) {
         few.reset();  // drawn whole then
@@ -150,9 +187,9 @@ void ViewLoader::runStudy(const Stage& plain, const std::vector<double>& opaciti
     }
     extras->few.push_back(std::move(few));
     FlkStrands strands = {};
-    flkAssetGetStrands(asset.opened.asset.get(), &strands);
+    flkAssetGetStrands(asset.opened->asset.get(), &strands);
     extras->faults.push_back(stop_study_ ? StrandFaults{} : findStrandFaults(strands));
-    extras->findings.push_back(stop_study_ ? std::vector<FindingStrands>() : findingStrands(asset.opened, extras->faults.back()));
+    extras->findings.push_back(stop_study_ ? std::vector<FindingStrands>() : findingStrands(*asset.opened, extras->faults.back()));
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);

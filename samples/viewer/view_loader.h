@@ -18,6 +18,7 @@ struct LoadedStage {
   std::unique_ptr<Stage> plain;    // without a colouring
   std::unique_ptr<Stage> colored;  // with the scene's, if it has one
   std::string error;               // why there is no stage: a sentence
+  std::vector<SceneMesh> meshes;   // without a stage: what was asked for as hair, and is meshes alone
   double seconds = 0.0;
 };
 
@@ -36,8 +37,9 @@ public:
   ViewLoader(const ViewLoader&) = delete;
   ViewLoader& operator=(const ViewLoader&) = delete;
 
-  // One at a time: what is under way is finished and forgotten.
-  void open(const Scene& scene);
+  // One at a time: what is under way is finished and forgotten. What is in `files` is not read again.
+  // A glTF file of triangles alone among the assets becomes a mesh beside the others.
+  void open(const Scene& scene, const OpenFiles& files = {});
   bool busy() const { return busy_; }
   std::string label() const;
   float share() const { return share_; }  // below 0: not known
@@ -51,7 +53,12 @@ public:
   void stopStudy();
 
 private:
-  void run(Scene scene);
+  struct Wanted {
+    Scene scene;
+    OpenFiles files;
+  };
+  void run(Wanted wanted);
+  void readAssets(Wanted& wanted, const ProgressFunction& progress);
   void runStudy(const Stage& plain, const std::vector<double>& opacities);
 
   std::function<void()> wake_;
@@ -62,7 +69,7 @@ private:
   std::string label_;
   std::unique_ptr<LoadedStage> loaded_;
   std::unique_ptr<LoadedExtras> extras_;
-  std::unique_ptr<Scene> next_;
+  std::unique_ptr<Wanted> next_;
 };
 
 }  // namespace forelock::samples

@@ -26,6 +26,7 @@ constexpr Key kMouse[] = {
 };
 constexpr Key kKeys[] = {
     {"Ctrl O", "open a strand file"},
+    {"F5", "read the files again"},
     {"Ctrl S, F12", "save the picture"},
     {"Ctrl Shift S", "save the scene"},
     {"Ctrl C", "copy the command line that makes this picture"},
@@ -61,6 +62,8 @@ void fileMenu(ViewSession& session) {
   Requests& ask = session.requests;
   ask.open_file = ui::menuItem("Open...", "Ctrl O") || ask.open_file;
   ask.add_file = ui::menuItem("Add beside...", "", session.loaded()) || ask.add_file;
+  ask.add_mesh = ui::menuItem("Add a mesh...", "", session.loaded()) || ask.add_mesh;
+  ask.reload = ui::menuItem("Read again", "F5", session.loaded()) || ask.reload;
   if (ImGui::BeginMenu("Open a groom")) {
     ui::noteItem("Open a groom", true);
     for (const std::string& name : groomNames()) {
@@ -114,7 +117,7 @@ void viewMenu(ViewSession& session) {
   }
   if (session.plain) {
     for (const StagedAsset& asset : session.plain->assets) {
-      for (const RecipeCamera& camera : asset.opened.recipe ? asset.opened.recipe->cameras : std::vector<RecipeCamera>()) {
+      for (const RecipeCamera& camera : asset.opened->recipe ? asset.opened->recipe->cameras : std::vector<RecipeCamera>()) {
         if (ui::menuItem(("Camera " + camera.name).c_str(), "")) {
           ask.camera = camera.name;
         }
@@ -147,7 +150,7 @@ void menuBar(ViewSession& session) {
   }
   const auto menu = [&](const char* name, auto&& body) {
     const bool open = ImGui::BeginMenu(name);
-    ui::noteItem(name, open);
+    ui::noteItem(name, open, true);
     if (open) {
       {
         const ui::Scope scope(name);

@@ -104,11 +104,18 @@ void ViewScript::clickItem(const std::string& name) {
 // Every item of the panels that is there, once: those that appear by a click too. What would leave the viewer or ask for a file is left.
 void ViewScript::walkNext() {
   static const char* const kLeft[] = {"Quit", "Open...", "Add...", "Add beside...", "Open a scene...", "Open scene...", "Save scene...", "Save picture...",
-                                      "Save the scene...", "Save the picture...", "Remove", "All around/", "Wait for the screen", "Letters", "Recent", "Open a groom"};
+                                      "Save the scene...", "Save the picture...", "Add a mesh...", "Remove", "All around/", "Wait for the screen",
+                                      "Letters", "Recent", "Open a groom"};
+  // A click closes a menu: it is opened again for each of its lines.
+  const auto menu = std::find_if(ui::items().begin(), ui::items().end(), [&](const ui::Item& item) { return item.menu && item.name == walk_only_; });
+  if (menu != ui::items().end() && !menu->open) {
+    clickItem(walk_only_);
+    return;
+  }
   for (const ui::Item& item : ui::items()) {
     const bool leave = std::any_of(std::begin(kLeft), std::end(kLeft), [&](const char* part) { return item.name.find(part) != std::string::npos; });
     const bool wanted = walk_only_.empty() || item.name.rfind(walk_only_, 0) == 0;
-    if (leave || !wanted || item.name.rfind("File", 0) == 0 || item.name.rfind("Second/", 0) == 0 ||
+    if (leave || !wanted || item.menu || item.name.rfind("Second/", 0) == 0 ||
         std::find(walked_.begin(), walked_.end(), item.name) != walked_.end()) {
       continue;
     }
@@ -118,6 +125,9 @@ void ViewScript::walkNext() {
     }
     clickItem(item.name);
     return;
+  }
+  if (menu != ui::items().end()) {
+    clickItem(walk_only_);  // shuts it
   }
   walking_ = false;
 }

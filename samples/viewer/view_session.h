@@ -32,7 +32,9 @@ struct Selection {
 // What panels ask for; carried out between frames.
 struct Requests {
   std::optional<Scene> open;              // a scene to load
-  bool add_file = false, open_file = false, open_scene = false;  // dialogues
+  std::optional<Scene> arrange;           // one of files that are open already
+  bool reload = false;                    // all files, as they are on the disk now
+  bool add_file = false, open_file = false, open_scene = false, add_mesh = false;  // dialogues
   bool save_scene = false, save_picture = false;
   bool copy_command = false, frame_all = false, frame_selection = false;
   bool reset_view = false, quit = false;
@@ -86,7 +88,7 @@ struct ViewSession {
   bool show_strand = false;  // its panel to the front
 
   // A file dialogue.
-  enum class Browse { none, open, add, scene, save_scene, save_picture } browse = Browse::none;
+  enum class Browse { none, open, add, mesh, scene, save_scene, save_picture } browse = Browse::none;
 
   bool loaded() const { return plain != nullptr; }
   bool shaded() const { return scene.display == FLK_DISPLAY_SHADED && scene.coloring == StrandColoring::none; }
@@ -95,6 +97,8 @@ struct ViewSession {
   void flyTo(const Orbit& orbit_there);
   // With the camera of the window in it.
   Scene currentScene() const;
+  // The same to be opened anew with other files: an exposure that was chosen is chosen again.
+  Scene sceneToArrange() const;
 };
 
 // Scene of one asset with what the person has set of lights, method and camera axes.

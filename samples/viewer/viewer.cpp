@@ -67,6 +67,9 @@ void Viewer::frame() {
   const auto begin = Clock::now();
   const double dt = seconds(begin - last_frame_);
   last_frame_ = begin;
+  if (!first_picture_ && (opening_ || session_.loaded())) {
+    held_ms_ = std::max(held_ms_, 1e3 * dt);
+  }
   if (std::unique_ptr<LoadedStage> loaded = loader_.take()) {
     adopt(std::move(loaded));
   }
@@ -242,7 +245,8 @@ int Viewer::finish() {
   }
   if (script_.active() || options_.frames > 0) {
     std::sort(moving_ms_.begin(), moving_ms_.end());
-    std::printf("frames %u, clicks %u, first picture %s\n", frames_, script_.clicks(), session_.status.c_str());
+    std::printf("frames %u, clicks %u, %s\n", frames_, script_.clicks(), session_.status.c_str());
+    std::printf("while opening: at most %.0f ms from frame to frame\n", held_ms_);
     if (!moving_ms_.empty()) {
       std::printf("moving: %zu pictures, median %.1f ms, 95 %% within %.1f ms, at %.0f %% of the resolution\n", moving_ms_.size(),
                   moving_ms_[moving_ms_.size() / 2], moving_ms_[moving_ms_.size() * 95 / 100], 100.0 * cheap_share_);

@@ -42,7 +42,9 @@ private:
   void loseDevice(const std::string& why);
   void adopt(std::unique_ptr<LoadedStage> loaded);
   void adoptExtras(std::unique_ptr<LoadedExtras> extras);
-  void open(const Scene& scene);
+  void open(const Scene& scene, const OpenFiles& files = {});
+  OpenFiles openFiles() const;
+  void addMesh(const std::string& path);
   void openPath(const std::string& path, bool add);
   void takeDropped();
   void recolor();
@@ -83,6 +85,7 @@ private:
   Clock::time_point last_change_ = Clock::now(), last_frame_ = Clock::now(), opened_ = Clock::now(), lost_{};
   double cheap_share_ = 0.35, full_ms_ = 0.0;
   bool sounding_ = false;      // what is shown is the small picture that told the exposure
+  double held_ms_ = 0.0;       // longest time between two frames from opening until the first picture
   bool opening_ = false, first_picture_ = false, minimised_ = false;
   uint32_t frames_ = 0, settled_frames_ = 0;
   std::vector<double> moving_ms_;   // from the input to the picture, while something moved

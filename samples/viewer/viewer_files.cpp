@@ -26,13 +26,42 @@ bool strandSuffix(const std::string& name) {
   return std::any_of(std::begin(kSuffixes), std::end(kSuffixes), [&](const char* known) { return suffix == known; });
 }
 
+bool meshSuffix(const std::string& name) { return fs::path(name).extension() == ".gltf" || fs::path(name).extension() == ".glb"; }
+
 }  // namespace
 
-void Viewer::open(const Scene& scene) {
+void Viewer::open(const Scene& scene, const OpenFiles& files) {
   opened_ = Clock::now();
   opening_ = true;
   first_picture_ = false;
-  loader_.open(scene);
+  held_ms_ = 0.0;
+  last_frame_ = opened_;
+  loader_.open(scene, files);
+}
+
+// What the window holds, to be arranged otherwise.
+OpenFiles Viewer::openFiles() const {
+  OpenFiles files;
+  if (session_.plain) {
+    const Stage& stage = *session_.plain;
+    for (size_t i = 0; i < stage.assets.size(); ++i) {
+      files.assets.emplace_back(stage.scene.assets[i], stage.assets[i].opened);
+    }
+    for (size_t i = 0; i < stage.meshes.size(); ++i) {
+      files.meshes.emplace_back(stage.scene.meshes[i], stage.meshes[i].read);
+    }
+  }
+  return files;
+}
+
+void Viewer::addMesh(const std::string& path) {
+  if (!session_.loaded()) {
+    session_.alert = path + ": open hair first, then a mesh beside it.";
+    return;
+  }
+  Scene scene = session_.sceneToArrange();
+  scene.meshes.emplace_back().source = path;
+  open(scene, openFiles());
 }
 
 void Viewer::openPath(const std::string& path, bool add) {
@@ -53,7 +82,8 @@ void Viewer::openPath(const std::string& path, bool add) {
     } catch (const std::exception&) {
     }
   }
-  open(sceneOf(session_, whole, add && session_.loaded()));
+  const bool beside = add && session_.loaded();
+  open(sceneOf(session_, whole, beside), beside ? openFiles() : OpenFiles{});
 }
 
 // What was dragged in: with shift beside what is open, several beside each other.
@@ -63,16 +93,23 @@ void Viewer::takeDropped() {
   if (paths.size() == 1) {
     openPath(paths[0], add);
   } else if (!paths.empty()) {
-    Scene scene = sceneOf(session_, paths[0], add && session_.loaded());
+    const bool beside = add && session_.loaded();
+    Scene scene = sceneOf(session_, paths[0], beside);
     for (size_t i = 1; i < paths.size(); ++i) {
       scene.assets.emplace_back().source = paths[i];
     }
-    open(scene);
+    open(scene, beside ? openFiles() : OpenFiles{});
   }
 }
 
 void Viewer::adopt(std::unique_ptr<LoadedStage> loaded) {
   opening_ = false;
+  if (!loaded->plain && !loaded->meshes.empty() && session_.loaded()) {  // meshes go beside the hair that is open
+    Scene scene = session_.sceneToArrange();
+    scene.meshes.insert(scene.meshes.end(), loaded->meshes.begin(), loaded->meshes.end());
+    open(scene, openFiles());
+    return;
+  }
   if (!loaded->plain) {
     session_.alert = loaded->error + (session_.loaded() ? "\n\nWhat was open stays as it was." : "");
     return;
@@ -143,6 +180,7 @@ void Viewer::browse(ViewSession::Browse what) {
   switch (what) {
     case ViewSession::Browse::open: browser_.open("Open a strand file", folder, strandSuffix); break;
     case ViewSession::Browse::add: browser_.open("Add a strand file beside what is open", folder, strandSuffix); break;
+    case ViewSession::Browse::mesh: browser_.open("Put a mesh beside the hair", folder, meshSuffix); break;
     case ViewSession::Browse::scene: browser_.open("Open a scene", folder, sceneSuffix); break;
     case ViewSession::Browse::save_scene: browser_.open("Save the scene", folder, sceneSuffix, "scene.json"); break;
     case ViewSession::Browse::save_picture: browser_.open("Save the picture", folder, isImagePath, "hair.png"); break;
@@ -159,6 +197,7 @@ void Viewer::takeBrowsed() {
   switch (session_.browse) {
     case ViewSession::Browse::open: openPath(*path, false); break;
     case ViewSession::Browse::add: openPath(*path, true); break;
+    case ViewSession::Browse::mesh: addMesh(*path); break;
     case ViewSession::Browse::scene:
       try {
         open(loadScene(*path));

@@ -19,6 +19,7 @@ void Viewer::keys() {
   const ImGuiIO& io = ImGui::GetIO();
   const auto pressed = [&](int key) { return ImGui::IsKeyPressed(key, false); };
   if (pressed(GLFW_KEY_F1)) session_.show_help = !session_.show_help;
+  if (pressed(GLFW_KEY_F5)) session_.requests.reload = true;
   if (pressed(GLFW_KEY_F12)) session_.requests.save_picture = true;
   if (io.WantTextInput || browser_.isOpen() || !session_.alert.empty()) {
     return;
@@ -63,7 +64,7 @@ std::vector<glm::vec3> Viewer::selectedPoints() const {
   }
   const StagedAsset& asset = session_.plain->assets[selection.asset];
   FlkStrands strands = {};
-  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  flkAssetGetStrands(asset.opened->asset.get(), &strands);
   return pointsOf(strands, selection.strands, asset.world_from_hair);
 }
 
@@ -89,8 +90,11 @@ void Viewer::takeRequests() {
   Requests ask = std::exchange(session_.requests, {});
   using Browse = ViewSession::Browse;
   if (ask.open) open(*ask.open);
+  if (ask.arrange) open(*ask.arrange, openFiles());
+  if (ask.reload && session_.loaded()) open(session_.sceneToArrange());
   if (ask.open_file) browse(Browse::open);
   if (ask.add_file) browse(Browse::add);
+  if (ask.add_mesh) browse(Browse::mesh);
   if (ask.open_scene) browse(Browse::scene);
   if (ask.save_scene && session_.loaded()) browse(Browse::save_scene);
   if (ask.save_picture && session_.loaded()) browse(Browse::save_picture);
@@ -118,7 +122,7 @@ void Viewer::takeRequests() {
     if (ask.frame_selection) frameSelection();
     if (ask.camera) {
       for (const StagedAsset& asset : session_.plain->assets) {
-        for (const RecipeCamera& camera : asset.opened.recipe ? asset.opened.recipe->cameras : std::vector<RecipeCamera>()) {
+        for (const RecipeCamera& camera : asset.opened->recipe ? asset.opened->recipe->cameras : std::vector<RecipeCamera>()) {
           if (camera.name == *ask.camera) session_.flyTo(orbitOf(fromRecipeCamera(camera), session_.scene.camera.up));
         }
       }

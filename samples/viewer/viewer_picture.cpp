@@ -68,6 +68,23 @@ void Viewer::applyEdits() {
       device_->layers->renewMeshes();
       encloseMeshes();
     }
+    bool moved = false;
+    for (size_t i = 0; i < std::min(scene.meshes.size(), session_.plain->meshes.size()); ++i) {
+      const SceneMesh &wanted = scene.meshes[i], &now = applied_.meshes[i];
+      if (wanted.position == now.position && wanted.turn_deg == now.turn_deg && wanted.scale == now.scale && wanted.color == now.color) {
+        continue;
+      }
+      for (Stage* stage : {session_.plain.get(), session_.colored.get()}) {
+        if (stage && i < stage->meshes.size()) {
+          placeMesh(wanted, scene.camera.up, stage->meshes[i]);
+        }
+      }
+      moved = true;
+    }
+    if (moved) {
+      device_->layers->renewMeshes();
+      encloseMeshes();
+    }
     bool look = false;
     for (size_t i = 0; i < std::min(scene.assets.size(), session_.plain->assets.size()); ++i) {
       const SceneAsset& wanted = scene.assets[i];

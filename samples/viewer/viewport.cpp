@@ -44,8 +44,9 @@ void Viewport::draw(ViewSession& session, ViewLayers& layers, const ViewportRect
   ImGui::InvisibleButton("##picture", ImVec2(rect.width, rect.height),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   if (session.loaded()) {
-    mouse(session);
+    mouse(session, layers);
     drawSelection(session);
+    drawLegend(session.stage()->legend);
     drawCount(session, layers);
     if (session.compare == Compare::split && session.shaded()) {
       ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -65,7 +66,7 @@ void Viewport::draw(ViewSession& session, ViewLayers& layers, const ViewportRect
   ImGui::End();
 }
 
-void Viewport::mouse(ViewSession& session) {
+void Viewport::mouse(ViewSession& session, ViewLayers& layers) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool over = ImGui::IsItemHovered();
   const float divider_x = rect_.x + session.divider * rect_.width;
@@ -88,7 +89,7 @@ void Viewport::mouse(ViewSession& session) {
       session.orbit.zoom(static_cast<double>(io.MouseWheel), from_middle, static_cast<double>(rect_.height), session.bounds.size());
     }
     if (ImGui::IsMouseDoubleClicked(0) && !at_divider) {
-      pick(session, true);
+      pick(session, layers, true);
     }
   }
   if (drag_ == Drag::none) {
@@ -109,26 +110,27 @@ void Viewport::mouse(ViewSession& session) {
   }
   if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) {
     if (click_yet && drag_ == Drag::turn) {
-      pick(session, false);
+      pick(session, layers, false);
     }
     drag_ = Drag::none;
   }
 }
 
-void Viewport::pick(ViewSession& session, bool go) {
+void Viewport::pick(ViewSession& session, ViewLayers& layers, bool go) {
   const ImVec2 at = ImGui::GetIO().MousePos;
   uint32_t width = 0, height = 0;
   size(width, height);
   const glm::dvec2 pixel(static_cast<double>((at.x - rect_.x) * scale_), static_cast<double>((at.y - rect_.y) * scale_));
+  const OpaqueDepth opaque = layers.opaqueDepths(width, height);
   std::optional<StrandHit> best;
   size_t best_asset = 0;
   for (size_t a = 0; a < session.plain->assets.size(); ++a) {
     const StagedAsset& asset = session.plain->assets[a];
     FlkStrands strands = {};
-    flkAssetGetStrands(asset.opened.asset.get(), &strands);
+    flkAssetGetStrands(asset.opened->asset.get(), &strands);
     const StrandView view{strands, asset.world_from_hair, cameraOf(session.orbit, session.bounds), static_cast<double>(width),
                           static_cast<double>(height), static_cast<double>(asset.material.width_scale)};
-    const std::optional<StrandHit> hit = pickStrand(view, pixel);
+    const std::optional<StrandHit> hit = pickStrand(view, pixel, opaque);
     if (hit && (!best || hit->depth_m < best->depth_m)) {
       best = hit;
       best_asset = a;
@@ -155,7 +157,7 @@ void Viewport::drawSelection(const ViewSession& session) const {
   }
   const StagedAsset& asset = session.plain->assets[selection.asset];
   FlkStrands strands = {};
-  flkAssetGetStrands(asset.opened.asset.get(), &strands);
+  flkAssetGetStrands(asset.opened->asset.get(), &strands);
   const StrandView view{strands, asset.world_from_hair, cameraOf(session.orbit, session.bounds), static_cast<double>(rect_.width),
                         static_cast<double>(rect_.height), static_cast<double>(asset.material.width_scale)};
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -177,6 +179,57 @@ void Viewport::drawSelection(const ViewSession& session) const {
     }
   }
   draw->PopClipRect();
+}
+
+// In the lower left corner, as a saved picture has it where there is room.
+void Viewport::drawLegend(const Legend& legend) const {
+  if (legend.title.empty()) {
+    return;
+  }
+  const auto colorOf = [](const glm::vec3& linear) {
+    const ImVec4 coded(ui::encodeSrgb(linear.x), ui::encodeSrgb(linear.y), ui::encodeSrgb(linear.z), 1.0f);
+    return ImGui::ColorConvertFloat4ToU32(coded);
+  };
+  constexpr size_t kMostSwatches = 12;
+  const float line = ImGui::GetTextLineHeightWithSpacing(), edge = 0.5f * line, bar = 14.0f * ImGui::GetFontSize(), thick = 0.7f * line;
+  const size_t swatches = std::min(legend.swatches.size(), kMostSwatches);
+  const auto swatchText = [&](size_t i) {
+    return i + 1 == swatches && legend.swatches.size() > swatches ? groupedDigits(legend.swatches.size() - i) + " more" : legend.swatches[i].second;
+  };
+  float width = std::max(ImGui::CalcTextSize(legend.title.c_str()).x, legend.stops.empty() ? 0.0f : bar);
+  for (size_t i = 0; i < swatches; ++i) {
+    width = std::max(width, line + ImGui::CalcTextSize(swatchText(i).c_str()).x);
+  }
+  const float height = line + (legend.stops.empty() ? 0.0f : thick + line) + static_cast<float>(swatches) * line;
+  const float left = rect_.x + edge, top = rect_.y + rect_.height - height - 3.0f * edge;
+  if (top < rect_.y || width + 4.0f * edge > rect_.width) {
+    return;  // the words under Show remain
+  }
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImU32 text = IM_COL32(225, 225, 228, 255);
+  draw->AddRectFilled(ImVec2(left, top), ImVec2(left + width + 2.0f * edge, top + height + 2.0f * edge), IM_COL32(14, 15, 18, 215), 3.0f);
+  const float x = left + edge;
+  float y = top + edge;
+  draw->AddText(ImVec2(x, y), text, legend.title.c_str());
+  y += line;
+  if (!legend.stops.empty()) {
+    constexpr int kSteps = 64;
+    for (int i = 0; i < kSteps; ++i) {
+      const float from = bar * static_cast<float>(i) / kSteps, to = bar * static_cast<float>(i + 1) / kSteps;
+      draw->AddRectFilled(ImVec2(x + from, y), ImVec2(x + to, y + thick), colorOf(barColor(legend, (i + 0.5) / kSteps)));
+    }
+    y += thick;
+    for (const auto& [share, mark] : legend.marks) {
+      const float at = static_cast<float>(share);
+      draw->AddText(ImVec2(x + at * (bar - ImGui::CalcTextSize(mark.c_str()).x), y), text, mark.c_str());
+    }
+    y += line;
+  }
+  for (size_t i = 0; i < swatches; ++i) {
+    draw->AddRectFilled(ImVec2(x, y + 0.15f * line), ImVec2(x + 0.6f * line, y + 0.75f * line), colorOf(legend.swatches[i].first));
+    draw->AddText(ImVec2(x + line, y), text, swatchText(i).c_str());
+    y += line;
+  }
 }
 
 void Viewport::drawCount(const ViewSession& session, ViewLayers& layers) {

@@ -20,9 +20,10 @@ public:
 
 private:
   enum class Drag { none, turn, pan, divider };
-  void mouse(ViewSession& session);
-  void pick(ViewSession& session, bool go);
+  void mouse(ViewSession& session, ViewLayers& layers);
+  void pick(ViewSession& session, ViewLayers& layers, bool go);
   void drawSelection(const ViewSession& session) const;
+  void drawLegend(const Legend& legend) const;
   void drawCount(const ViewSession& session, ViewLayers& layers);
 
   ViewportRect rect_;

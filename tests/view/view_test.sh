@@ -14,6 +14,16 @@ window() { "$FORELOCK_XVFB_RUN" -a -s "-screen 0 1400x900x24" "$forelock" view -
 sed 's/"strands": *[0-9]*/"strands": 300/' "$FORELOCK_HAIRASSETS/short-straight.json" >small.json
 grep -q '"strands": 300' small.json || { echo "the small groom was not made" >&2; exit 1; }
 
+# A mesh of four triangles to put beside it.
+cat >wedge.gltf <<'END'
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-0.25,-0.35,-0.25],"max":[0.25,-0.05,0.3]},
+{"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],
+"buffers":[{"byteLength":72,"uri":"data:application/octet-stream;base64,AACAvjMzs74AAIC+AACAPjMzs74AAIC+AAAAADMzs76amZk+AAAAAM3MTL0AAAAAAAACAAEAAAABAAMAAQACAAMAAgAAAAMA"}]}
+END
+
 echo "-- a tour"
 rm -f tour.png tour.sh command.png tour-window.png
 window small.json --window 1100x700 --script "$scripts/tour.txt"

@@ -362,6 +362,7 @@ void ViewScreen::makeUi(float scale) {
   pool.pPoolSizes = sizes;
   check(gpu_.vkCreateDescriptorPool(gpu_.device, &pool, nullptr, &descriptors_), "making a descriptor pool");
   ImGui_ImplGlfw_InitForVulkan(window_->handle(), true);
+  window_->input().install(window_->handle());
   ImGui_ImplVulkan_InitInfo info{};
   info.Instance = gpu_.shared.instance;
   info.PhysicalDevice = gpu_.shared.physical_device;
@@ -410,6 +411,7 @@ void ViewScreen::setVsync(bool vsync) {
 void ViewScreen::beginUi() {
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  window_->input().feed();
 }
 
 void ViewScreen::recordCapture(uint32_t index) {

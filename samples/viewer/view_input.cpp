@@ -8,6 +8,8 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <bitset>
 
@@ -79,6 +81,25 @@ void ViewInput::feed() {
   if (any && io.MousePos.x > -1e30f) {
     io.MousePos = ImVec2(static_cast<float>(x_), static_cast<float>(y_));
   }
+}
+
+// GLFW has no call that asks the screen: on X11 Xlib is asked, which GLFW has loaded.
+bool shiftHeld() {
+  const auto find = [](const char* name) { return dlsym(RTLD_DEFAULT, name); };
+  const auto display_of = reinterpret_cast<void* (*)()>(find("glfwGetX11Display"));
+  const auto root_of = reinterpret_cast<unsigned long (*)(void*)>(find("XDefaultRootWindow"));
+  const auto query = reinterpret_cast<int (*)(void*, unsigned long, unsigned long*, unsigned long*, int*, int*, int*, int*, unsigned int*)>(
+      find("XQueryPointer"));
+  void* display = display_of ? display_of() : nullptr;
+  if (!display || !root_of || !query) {
+    return false;
+  }
+  unsigned long root = 0, child = 0;
+  int x = 0, y = 0, in_x = 0, in_y = 0;
+  unsigned int mask = 0;
+  query(display, root_of(display), &root, &child, &x, &y, &in_x, &in_y, &mask);
+  constexpr unsigned int kShiftMask = 1;  // of X.h
+  return (mask & kShiftMask) != 0;
 }
 
 }  // namespace forelock::samples

@@ -35,4 +35,7 @@ private:
   double x_ = 0.0, y_ = 0.0;
 };
 
+// Whether shift is held now, of whichever window has the keyboard: what is dragged comes from another one. False too where it is not X11.
+bool shiftHeld();
+
 }  // namespace forelock::samples

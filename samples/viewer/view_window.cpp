@@ -90,6 +90,7 @@ ViewWindow::~ViewWindow() {
 
 void ViewWindow::onDrop(GLFWwindow* window, int count, const char** paths) {
   auto* self = static_cast<ViewWindow*>(glfwGetWindowUserPointer(window));
+  self->dropped_with_shift_ = ImGui::GetIO().KeyShift || shiftHeld();
   self->dropped_.insert(self->dropped_.end(), paths, paths + count);
 }
 

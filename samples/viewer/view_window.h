@@ -37,6 +37,7 @@ public:
   void setTitle(const std::string& title);
   void resize(int width, int height);
   std::vector<std::string> takeDropped();      // paths that were dragged in since the last call
+  bool droppedWithShift() const { return dropped_with_shift_; }  // the last of them
   void setClipboard(const std::string& text);
   ViewInput& input() { return input_; }
 
@@ -48,6 +49,7 @@ private:
   static void onDrop(GLFWwindow* window, int count, const char** paths);
   GLFWwindow* window_ = nullptr;
   std::vector<std::string> dropped_;
+  bool dropped_with_shift_ = false;
   ViewInput input_;
   std::string title_;
 };

@@ -1,5 +1,5 @@
 // The viewer as a desktop sees it: real X events to a real window, with nothing of --script.
-// view_x11_test FORELOCK GROOM.json OUT-FOLDER; GROOM.json is small. SPDX-License-Identifier: MIT
+// view_x11_test FORELOCK FOLDER, which has "two stränds.json", a groom, and small.hair, and takes logs. SPDX-License-Identifier: MIT
 #include "x11_desktop.h"
 
 #include <X11/keysym.h>
@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 
 namespace forelock::view_test {
 
@@ -117,6 +116,23 @@ private:
 // The colour of a selected strand.
 bool selected(uint32_t color) { return (color >> 16) > 220 && (color >> 8 & 0xff) > 140 && (color & 0xff) < 110; }
 
+// Where there is hair before a grey ground.
+std::pair<int, int> brownest(const Pixels& pixels, const Area& area) {
+  std::pair<int, int> place{area.x, area.y};
+  int most = -256;
+  for (int y = area.y; y < area.y + area.height; ++y) {
+    for (int x = area.x; x < area.x + area.width; ++x) {
+      const uint32_t color = pixels.at(x, y);
+      const int brown = static_cast<int>(color >> 16) - static_cast<int>(color & 0xff);
+      if (brown > most) {
+        most = brown;
+        place = {x, y};
+      }
+    }
+  }
+  return place;
+}
+
 std::string percentCoded(const std::string& path) {
   std::string coded;
   for (const char c : path) {
@@ -130,13 +146,11 @@ std::string percentCoded(const std::string& path) {
 
 class Test {
 public:
-  Test(std::string forelock, const std::string& groom, const std::string& out) : forelock_(std::move(forelock)), out_(out) {
-    groom_ = (fs::path(out) / "two stränds.json").string();
-    fs::copy_file(groom, groom_, fs::copy_options::overwrite_existing);
-  }
+  Test(std::string forelock, const fs::path& folder)
+      : forelock_(std::move(forelock)), groom_((folder / "two stränds.json").string()), hair_((folder / "small.hair").string()) {}
 
   void run() {
-    Desktop desktop(1400, 900, out_);
+    Desktop desktop(1400, 900);
     person(desktop);
     bigLetters(desktop);
     ends("a window that another client destroys", desktop, "destroy", [&](View& view) { desktop.destroy(view.window); });
@@ -155,7 +169,7 @@ private:
   void ends(const std::string& what, Desktop& desktop, const std::string& name, const std::function<void(View&)>& happens) {
     step(what);
     View view(desktop, words(true), name);
-    opened(view);
+    opened(view, "small.hair - ");
     desktop.type(XK_t);
     int pictures = 0;
     Pixels last;
@@ -171,16 +185,16 @@ private:
     std::printf("          %s: %s", ending.c_str(), said.c_str());
   }
 
-  std::vector<std::string> words(bool with_groom, const std::string& size = "1100x700") const {
+  std::vector<std::string> words(bool with_hair, const std::string& size = "1100x700") const {
     std::vector<std::string> all{forelock_, "view", "--forget", "--validation", "--window", size};
-    if (with_groom) {
-      all.push_back(groom_);
+    if (with_hair) {
+      all.push_back(hair_);
     }
     return all;
   }
 
-  static void opened(View& view) {
-    view.until("the file's name in the title", [&] { return view.title().find("two stränds.json") != std::string::npos; });
+  static void opened(View& view, const std::string& part) {
+    view.until(part + " in the title", [&] { return view.title().find(part) != std::string::npos; });
   }
 
   void person(Desktop& desktop);
@@ -188,7 +202,7 @@ private:
   // Rows with letters in the menu bar, of a window with letters of `scale`.
   static int letterRows(const Pixels& pixels, int scale);
 
-  std::string forelock_, groom_, out_;
+  std::string forelock_, groom_, hair_;
   Clock::time_point begin_ = Clock::now();
   int letter_rows_ = 0;
 };
@@ -227,12 +241,18 @@ void Test::person(Desktop& desktop) {
 
   step("a file is dropped");
   desktop.drop(window, 550, 350, "file://" + percentCoded(groom_) + "\r\n");
-  opened(view);
+  opened(view, "two stränds.json - ");
   Pixels seen = look("the groom is drawn", changedFrom(empty, 20000));
+
+  step("another file is dropped");
+  desktop.drop(window, 550, 350, "file://" + percentCoded(hair_) + "\r\n");
+  opened(view, "small.hair - ");
+  Pixels now = look("its hair is drawn", changedFrom(seen, 20000));
+  seen = now;
 
   step("a drag turns");
   view.drag(500, 400, 600, 380, 1);
-  Pixels now = look("a turned picture", changedFrom(seen, 5000));
+  now = look("a turned picture", changedFrom(seen, 3000));
   seen = now;
 
   step("the wheel goes nearer");
@@ -240,7 +260,7 @@ void Test::person(Desktop& desktop) {
   for (int i = 0; i < 3; ++i) {
     desktop.click(4);
   }
-  now = look("a nearer picture", changedFrom(seen, 5000));
+  now = look("a nearer picture", changedFrom(seen, 3000));
   seen = now;
 
   step("keys");
@@ -251,19 +271,15 @@ void Test::person(Desktop& desktop) {
   copies("the first method", "\"core_tail\"");
   desktop.type(XK_2);
   copies("another method", "\"exact\"");
-  copies("the file", "two stränds.json");
+  copies("the file", "small.hair");
   now = look("its panel", [&](const Pixels& p) { return differing(seen, p, kMethod) > 1000; });
   seen = now;
 
   step("a click picks a strand");
-  bool picked = false;
-  for (int x = 440; x <= 660 && !picked; x += 20) {
-    desktop.moveTo(window, x, 90);
-    desktop.click(1);
-    now = look("a picture", [](const Pixels&) { return true; });
-    picked = countPixels(now, kMiddle, selected) > 20;
-  }
-  check(picked, "no strand was picked");
+  const auto [hair_x, hair_y] = brownest(seen, kMiddle);
+  desktop.moveTo(window, hair_x, hair_y);
+  desktop.click(1);
+  now = look("a strand is marked", [&](const Pixels& p) { return countPixels(p, kMiddle, selected) > 20; });
   check(differing(seen, now, kStatus) > 100, "no word about the strand that was picked");
   seen = now;
 
@@ -272,7 +288,7 @@ void Test::person(Desktop& desktop) {
   desktop.button(1, true);
   desktop.moveTo(window, 560, 400);
   desktop.button(1, false);
-  now = look("a turned picture", changedFrom(seen, 5000));
+  now = look("a turned picture", changedFrom(seen, 3000));
   check(countPixels(now, kMiddle, selected) > 20, "a quick drag was taken for a click");
   desktop.type(XK_F1);
   desktop.type(XK_Escape);
@@ -314,6 +330,14 @@ void Test::person(Desktop& desktop) {
   desktop.map(window);
   look("a window that is mapped again", sameAs(seen));
 
+  step("a file is dropped beside, from a window that has the keyboard");
+  desktop.focus(None);
+  desktop.key(XK_Shift_L, true);
+  desktop.drop(window, 550, 350, "file://" + percentCoded(groom_) + "\r\n");
+  desktop.key(XK_Shift_L, false);
+  desktop.focus(window);
+  opened(view, "small.hair, two stränds.json - ");
+
   step("closed");
   desktop.askToClose(window);
   check(view.ending("asked to close") == "exit status 0", view.process().ending() + "\n" + view.process().said());
@@ -339,13 +363,13 @@ void Test::bigLetters(Desktop& desktop) {
 }  // namespace forelock::view_test
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "usage: view_x11_test FORELOCK GROOM.json OUT-FOLDER\n");
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: view_x11_test FORELOCK FOLDER\n");
     return 2;
   }
   try {
-    std::filesystem::current_path(argv[3]);
-    forelock::view_test::Test(argv[1], argv[2], argv[3]).run();
+    std::filesystem::current_path(argv[2]);
+    forelock::view_test::Test(argv[1], argv[2]).run();
   } catch (const std::exception& failure) {
     std::fprintf(stderr, "view_x11_test: %s\n", failure.what());
     return 1;

@@ -59,7 +59,7 @@ size_t differing(const Pixels& a, const Pixels& b, const Area& area) {
 
 // ---- The server and the window manager ----
 
-Desktop::Desktop(int width, int height, const std::string& folder) {
+Desktop::Desktop(int width, int height) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) {
     throw Failure("no pipe");
@@ -67,7 +67,7 @@ Desktop::Desktop(int width, int height, const std::string& folder) {
   const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
   // It chooses a display that is free, and tells which when it is ready.
   server_ = std::make_unique<Process>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", screen, "-nolisten",
-                                                               "tcp", "-noreset"}, folder + "/xvfb.log", ends[1]);
+                                                               "tcp", "-noreset"}, "x11-xvfb.log", ends[1]);
   close(ends[1]);
   std::string number;
   for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) {
@@ -153,7 +153,7 @@ void Desktop::handle(XEvent& event) {
     } else if (message.message_type == atom("XdndStatus")) {
       accepted_ = (message.data.l[1] & 1) != 0;
     } else if (message.message_type == atom("XdndFinished")) {
-      finished_ = (message.data.l[1] & 1) != 0;
+      finished_ = true;  // whether it was taken is not told by it: GLFW 3.3 puts the number of bytes where a bit should be
     }
   } else if (event.type == SelectionRequest) {
     serveDrop(event.xselectionrequest);
@@ -310,6 +310,11 @@ void Desktop::key(KeySym key, bool down) {
 void Desktop::type(KeySym which) {
   key(which, true);
   key(which, false);
+}
+
+void Desktop::focus(Window window) {
+  XSetInputFocus(display_, window, RevertToPointerRoot, CurrentTime);
+  XSync(display_, False);
 }
 
 // ---- Between programs ----

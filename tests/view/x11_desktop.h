@@ -29,7 +29,7 @@ size_t differing(const Pixels& a, const Pixels& b, const Area& area);
 
 class Desktop {
 public:
-  Desktop(int width, int height, const std::string& folder);  // throws Failure; logs go to `folder`
+  Desktop(int width, int height);  // throws Failure; the server's log goes to the current folder
   ~Desktop();
   Desktop(const Desktop&) = delete;
   Desktop& operator=(const Desktop&) = delete;
@@ -51,6 +51,7 @@ public:
   void click(unsigned int which);
   void key(KeySym key, bool down);
   void type(KeySym key);           // down and up at once
+  void focus(Window window);       // None: keys go nowhere
 
   void resize(Window window, int width, int height);
   void askToIconify(Window window);  // as XIconifyWindow does; the manager then does it

@@ -90,6 +90,7 @@ ViewWindow::~ViewWindow() {
 
 void ViewWindow::onDrop(GLFWwindow* window, int count, const char** paths) {
   auto* self = static_cast<ViewWindow*>(glfwGetWindowUserPointer(window));
+  self->dropped_with_shift_ = ImGui::GetIO().KeyShift || shiftHeld();
   self->dropped_.insert(self->dropped_.end(), paths, paths + count);
 }
 
@@ -362,6 +363,7 @@ void ViewScreen::makeUi(float scale) {
   pool.pPoolSizes = sizes;
   check(gpu_.vkCreateDescriptorPool(gpu_.device, &pool, nullptr, &descriptors_), "making a descriptor pool");
   ImGui_ImplGlfw_InitForVulkan(window_->handle(), true);
+  window_->input().install(window_->handle());
   ImGui_ImplVulkan_InitInfo info{};
   info.Instance = gpu_.shared.instance;
   info.PhysicalDevice = gpu_.shared.physical_device;
@@ -410,6 +412,7 @@ void ViewScreen::setVsync(bool vsync) {
 void ViewScreen::beginUi() {
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  window_->input().feed();
 }
 
 void ViewScreen::recordCapture(uint32_t index) {

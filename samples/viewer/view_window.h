@@ -3,6 +3,7 @@
 
 #include "gpu_resources.h"
 #include "view_gpu.h"
+#include "view_input.h"
 
 #include <functional>
 #include <memory>
@@ -36,7 +37,9 @@ public:
   void setTitle(const std::string& title);
   void resize(int width, int height);
   std::vector<std::string> takeDropped();      // paths that were dragged in since the last call
+  bool droppedWithShift() const { return dropped_with_shift_; }  // the last of them
   void setClipboard(const std::string& text);
+  ViewInput& input() { return input_; }
 
   // Handles what has come in; waits for something up to `wait_s`.
   static void poll(double wait_s);
@@ -46,6 +49,8 @@ private:
   static void onDrop(GLFWwindow* window, int count, const char** paths);
   GLFWwindow* window_ = nullptr;
   std::vector<std::string> dropped_;
+  bool dropped_with_shift_ = false;
+  ViewInput input_;
   std::string title_;
 };
 

@@ -189,7 +189,7 @@ int Viewer::run() {
       break;
     }
     const bool busy = script_.active() || session_.turning || session_.approach_to || turntable_views_ > 0 || !settled() || options_.frames > 0 ||
-                      frames_ < 3 || viewport_.dragging();
+                      frames_ < 3 || viewport_.dragging() || window_->input().waiting();
     ViewWindow::poll(window_->hidden() && !script_.active() ? kIdle_s : busy ? 0.0 : kIdle_s);
     try {
       frame();

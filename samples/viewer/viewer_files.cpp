@@ -5,7 +5,6 @@
 #include "view_measure.h"
 
 #include <glm/common.hpp>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +88,7 @@ void Viewer::openPath(const std::string& path, bool add) {
 // What was dragged in: with shift beside what is open, several beside each other.
 void Viewer::takeDropped() {
   const std::vector<std::string> paths = window_->takeDropped();
-  const bool add = ImGui::GetIO().KeyShift;
+  const bool add = window_->droppedWithShift();
   if (paths.size() == 1) {
     openPath(paths[0], add);
   } else if (!paths.empty()) {

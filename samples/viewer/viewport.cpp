@@ -71,7 +71,8 @@ void Viewport::mouse(ViewSession& session, ViewLayers& layers) {
   const bool over = ImGui::IsItemHovered();
   const float divider_x = rect_.x + session.divider * rect_.width;
   const bool at_divider = session.compare == Compare::split && std::abs(io.MousePos.x - divider_x) < 6.0f;
-  if (drag_ == Drag::none && over) {
+  const bool idle = drag_ == Drag::none;
+  if (idle && over) {
     if (at_divider) {
       ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     }
@@ -95,8 +96,10 @@ void Viewport::mouse(ViewSession& session, ViewLayers& layers) {
   if (drag_ == Drag::none) {
     return;
   }
-  const double dx = static_cast<double>(io.MouseDelta.x), dy = static_cast<double>(io.MouseDelta.y);
-  moved_ += std::abs(io.MouseDelta.x) + std::abs(io.MouseDelta.y);
+  // The way to where the button went down may be in the same frame, and is no drag.
+  const ImVec2 delta = idle ? ImVec2(0.0f, 0.0f) : io.MouseDelta;
+  const double dx = static_cast<double>(delta.x), dy = static_cast<double>(delta.y);
+  moved_ += std::abs(delta.x) + std::abs(delta.y);
   const bool click_yet = moved_ < kClickPx && drag_ != Drag::divider;
   if (!click_yet && (dx != 0.0 || dy != 0.0)) {
     session.approach_to.reset();

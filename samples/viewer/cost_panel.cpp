@@ -89,6 +89,10 @@ void costPanel(ViewSession& session, const LayerFacts* facts) {
   }
   timeGraph(session.times);
   if (ImGui::BeginTable("stages", 3, ImGuiTableFlags_SizingStretchSame)) {
+    for (const char* name : {"GPU stage", "last", "median of 30"}) {
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", name);
+    }
     for (uint32_t stage = 0; stage < FLK_STAGE_COUNT; ++stage) {
       if (facts->statistics.milliseconds[stage] < 0.0) {
         continue;
@@ -101,18 +105,21 @@ void costPanel(ViewSession& session, const LayerFacts* facts) {
       ImGui::TextUnformatted(milliseconds(facts->statistics.milliseconds[stage]).c_str());
       ImGui::TableNextColumn();
       ImGui::TextDisabled("%s", milliseconds(session.times.median(stage, 30)).c_str());
-      ui::tip("median of the last 30 pictures");
     }
     ImGui::EndTable();
   }
   const FlkStatistics& statistics = facts->statistics;
-  ui::fact("Together", milliseconds(statistics.milliseconds_frame) + (session.share < 0.999 ? ", at less resolution while it moves" : ""));
-  ui::fact("Picture", milliseconds(session.frame_ms) + " with all that the viewer does");
+  ui::fact("GPU total", milliseconds(statistics.milliseconds_frame) + (session.share < 0.999 ? ", reduced while it moves" : ""));
+  ui::fact("Frame", milliseconds(session.frame_ms));
+  ui::tip("From planning until the picture was there, with the window's own work");
   ui::fact("Fragments", groupedDigits(statistics.fragments));
   ui::fact("Segments", groupedDigits(facts->plan.segment_count));
-  ui::fact("Hair", readableBytes(facts->plan.bytes_persistent));
-  ui::fact("View", readableBytes(facts->plan.bytes_transient));
-  if (statistics.overflow_fragments > 0) {
+  ui::fact("Memory", readableBytes(facts->plan.bytes_persistent + facts->plan.bytes_transient));
+  ui::fact("  of hair", readableBytes(facts->plan.bytes_persistent));
+  ui::fact("  of the view", readableBytes(facts->plan.bytes_transient));
+  if (session.lists_grow) {
+    ui::faintText("The lists were too short; it is drawn again with longer ones.");
+  } else if (statistics.overflow_fragments > 0) {
     ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.3f, 1.0f), "Overflow: %s fragments", groupedDigits(statistics.overflow_fragments).c_str());
     ui::tip("They found the lists full and are drawn as a sum; the next picture has longer lists, up to 1 GiB");
   }

@@ -12,8 +12,9 @@ namespace forelock::samples {
 namespace fs = std::filesystem;
 
 void FileBrowser::open(const std::string& title, const std::string& folder, std::function<bool(const std::string&)> offer,
-                       const std::string& name) {
+                       const std::string& name, bool ask) {
   title_ = title;
+  ask_ = ask;
   offer_ = std::move(offer);
   name_ = name;
   saving_ = !name.empty();
@@ -113,52 +114,73 @@ std::optional<std::string> FileBrowser::draw() {
   if (!problem_.empty()) {
     ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.3f, 1.0f), "%s", problem_.c_str());
   }
-  const float below = ImGui::GetFrameHeightWithSpacing() * (saving_ ? 3.2f : 1.4f);
+  const float below = ImGui::GetFrameHeightWithSpacing() * (saving_ ? 3.4f : 1.4f);
   ImGui::BeginChild("##files", ImVec2(0.0f, -below), true);
   std::string enter;
   for (const Entry& entry : entries_) {
     if (!entry.folder && !entry.offered && !all_) {
       continue;
     }
-    const bool pressed = ImGui::Selectable((entry.folder ? entry.name + "/" : entry.name).c_str(), false, ImGuiSelectableFlags_DontClosePopups);
+    const bool pressed = ImGui::Selectable((entry.folder ? entry.name + "/" : entry.name).c_str(), !entry.folder && entry.name == name_,
+                                           ImGuiSelectableFlags_DontClosePopups | ImGuiSelectableFlags_AllowDoubleClick);
     ui::noteItem(entry.folder ? entry.name + "/" : entry.name);
     if (!entry.folder) {
       const std::string size = readableBytes(entry.bytes);
       ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(size.c_str()).x);
-      ImGui::TextDisabled("%s", size.c_str());
+      ImGui::TextUnformatted(size.c_str());
     }
     if (pressed && entry.folder) {
       enter = (fs::path(folder_) / entry.name).string();
-    } else if (pressed && saving_) {
-      name_ = entry.name;
     } else if (pressed) {
-      finish((fs::path(folder_) / entry.name).string());
+      name_ = entry.name;
+      if (!saving_ && ImGui::IsMouseDoubleClicked(0)) {
+        finish((fs::path(folder_) / entry.name).string());
+      }
     }
   }
   if (!enter.empty()) {
     go(enter);
   }
   ImGui::EndChild();
+  const std::string path = (fs::path(folder_) / name_).string();
+  std::error_code error;
+  const bool usable = !name_.empty() && !fs::is_directory(path, error);
+  bool confirm = false;
   if (saving_) {
-    ui::textInput("Name", name_, "Of the file to write");
-    const std::string path = (fs::path(folder_) / name_).string();
-    std::error_code error;
-    const bool there = fs::exists(path, error);
-    if (there && overwrite_ != path) {
-      if (ui::button("Write over it...", "There is a file of this name already")) {
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.7f);
+    const bool entered = ui::nameInput("Name", name_, "Of the file to write");
+    confirm = ask_ && overwrite_ == path && fs::exists(path, error);
+    if (confirm) {  // Cancel is where Save was, so that a second click does no harm
+      ImGui::TextColored(ImVec4(1.0f, 0.75f, 0.35f, 1.0f), "There is a file of this name already.");
+    } else if ((ui::button("Save", "", usable) || (entered && usable))) {
+      if (ask_ && fs::exists(path, error)) {
         overwrite_ = path;
+      } else {
+        finish(path);
       }
-    } else if (ui::button(there ? "Yes, write over it" : "Save", "", !name_.empty() && !fs::is_directory(path, error))) {
+    }
+  } else {
+    const bool there = usable && fs::exists(path, error);
+    if (ui::button("Open", "A double click does the same", there)) {
       finish(path);
     }
-    ImGui::SameLine();
-  } else {
-    ui::checkbox("All files", all_, "Also those whose names do not look like it: formats are recognised by content");
+  }
+  if (!confirm) {
     ImGui::SameLine();
   }
   if (ui::button("Cancel", "") || (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) && !ImGui::IsAnyItemActive())) {
     open_ = false;
     ImGui::CloseCurrentPopup();
+  }
+  if (confirm) {
+    ImGui::SameLine();
+    if (ui::button("Write over it", "What is in it now is lost", usable)) {
+      finish(path);
+    }
+  }
+  if (!saving_) {
+    ImGui::SameLine();
+    ui::checkbox("All files", all_, "Also those whose names do not look like it: formats are recognised by content");
   }
   scope.reset();
   ImGui::EndPopup();

@@ -10,8 +10,9 @@ namespace forelock::samples {
 
 class FileBrowser {
 public:
-  // `offer` tells which files are shown at first. A name to start with makes it ask where to write.
-  void open(const std::string& title, const std::string& folder, std::function<bool(const std::string&)> offer, const std::string& name = {});
+  // `offer` tells which files are shown at first. A name to start with makes it ask where to write; `ask` before it is written over.
+  void open(const std::string& title, const std::string& folder, std::function<bool(const std::string&)> offer, const std::string& name = {},
+            bool ask = true);
   bool isOpen() const { return open_; }
   void close() { open_ = false; }
   // Draws it; the path once one is chosen.
@@ -29,7 +30,7 @@ private:
   std::string title_, folder_, name_, typed_, problem_, overwrite_;
   std::function<bool(const std::string&)> offer_;
   std::vector<Entry> entries_;
-  bool open_ = false, saving_ = false, all_ = false, opening_ = false;
+  bool open_ = false, saving_ = false, all_ = false, opening_ = false, ask_ = true;
 };
 
 }  // namespace forelock::samples

@@ -19,19 +19,19 @@ void materialWidgets(SceneAsset& wanted, const StagedAsset& asset) {
   if (ui::color("Colour", m.color, "Of the fibre: what share of red, green and blue light it gives back. Times the asset's own colours.")) {
     wanted.color_given = true;
   }
-  ui::color("Tip colour", m.tip_color, "What the colour turns into towards the tip, as far as the next slider says");
-  ui::slide("Share of it", m.tip_blend, 0.0, 1.0, "How much of the tip colour there is at the tip. Above 0 each fragment takes four bytes more.");
+  ui::color("Tip colour", m.tip_color, "What the colour turns into towards the tip, as far as Tip blend says");
+  ui::slide("Tip blend", m.tip_blend, 0.0, 1.0, "How much of the tip colour there is at the tip: what the colour turns into. Above 0 each fragment takes four bytes more.");
   if (asset.info.has_colors) {
     ui::checkbox("Leave out the asset's colours", wanted.ignore_colors, "Its vertex colours, and the memory that they take");
   }
   double width = asset.width_mm;
-  if (ui::slide("Width (mm)", width, 1e-3, 10.0, "Diameter of the widest vertex. A hair of the head has 0.05 to 0.1; grooms with few strands need more.",
+  if (ui::slide("Width (mm)", width, 5e-3, 10.0, "Diameter of the widest vertex. A hair of the head has 0.05 to 0.1; grooms with few strands need more.",
                 "%.4g", true)) {
     wanted.width_mm = width;
   }
   if (wanted.width_mm > 0.0) {
     ImGui::SameLine();
-    if (ui::smallButton("its own", "As wide as the asset says")) {
+    if (ui::smallButton("Reset##width", "As wide as the asset says")) {
       wanted.width_mm = 0.0;
     }
   }
@@ -39,12 +39,12 @@ void materialWidgets(SceneAsset& wanted, const StagedAsset& asset) {
   ui::slide("Opacity, tip", m.opacity_tip, 0.0, 1.0, "The same at its tip");
   ui::slide("Diffuse", m.diffuse, 0.0, 1.0, "Weight of the part of light that leaves the fibre in all directions (Kajiya and Kay)");
   ui::slide("Highlight R", m.specular_r, 0.0, 0.5, "Weight of the first, colourless highlight: light that the surface throws back", "%.3g", true);
-  ui::slide("its sharpness", m.exponent_r, 1.0, 300.0, "Exponent of the first highlight: larger is narrower", "%.3g", true);
+  ui::slide("R exponent", m.exponent_r, 1.0, 300.0, "Exponent of the first highlight: larger is narrower", "%.3g", true);
   ui::slide("Highlight TRT", m.specular_trt, 0.0, 1.0, "Weight of the second highlight, in the hair's colour: light that went through the fibre twice",
             "%.3g", true);
-  ui::slide("its sharpness##trt", m.exponent_trt, 1.0, 300.0, "Exponent of the second highlight: larger is narrower", "%.3g", true);
+  ui::slide("TRT exponent", m.exponent_trt, 1.0, 300.0, "Exponent of the second highlight: larger is narrower", "%.3g", true);
   double tilt = static_cast<double>(m.cuticle_tilt) * (180.0 / 3.14159265358979323846);
-  if (ui::slide("Scales' tilt", tilt, -20.0, 20.0, "Degrees by which the fibre's scales stand off: moves the highlights to root and tip", "%.1f")) {
+  if (ui::slide("Cuticle tilt (deg)", tilt, -20.0, 20.0, "How far the fibre's scales stand off: moves the highlights to root and tip", "%.1f")) {
     m.cuticle_tilt = static_cast<float>(tilt * (3.14159265358979323846 / 180.0));
   }
   ui::slide("Shadow opacity", m.shadow_opacity, 0.0, 1.0, "Share of light that one fibre takes away from what lies behind it");
@@ -57,15 +57,15 @@ void materialWidgets(SceneAsset& wanted, const StagedAsset& asset) {
 void followWidgets(SceneAsset& wanted) {
   ui::slide("Follow strands", wanted.follow.count, 0, 64, "Strands beside each strand of the asset: thickens grooms of few guides");
   if (wanted.follow.count > 0) {
-    ui::slide("within (mm)", wanted.follow.radius_mm, 0.01, 50.0, "Radius around each guide's root in which they start", "%.3g", true);
-    ui::slide("spread at the tip", wanted.follow.spread_tip, 0.0, 10.0, "Radius at the tip, as a multiple of that at the root");
+    ui::slide("Follow radius (mm)", wanted.follow.radius_mm, 0.01, 50.0, "Radius around each guide's root in which they start", "%.3g", true);
+    ui::slide("Tip spread", wanted.follow.spread_tip, 0.0, 10.0, "Radius at the tip, as a multiple of that at the root");
   }
 }
 
 template <class Placed>  // an asset or a mesh
 void placeWidgets(Placed& wanted) {
-  ui::slide("Turn", wanted.turn_deg, -180.0, 180.0, "Degrees about the axis that is up", "%.0f");
-  ui::slide("Scale", wanted.scale, 1e-3, 1e3, "Metres a unit of the file: 0.01 for one in centimetres", "%.4g", true);
+  ui::slide("Turn (deg)", wanted.turn_deg, -180.0, 180.0, "About the axis that is up", "%.0f");
+  ui::slide("Scale (m/unit)", wanted.scale, 1e-3, 1e3, "Metres a unit of the file: 0.01 for one in centimetres", "%.4g", true);
   for (int i = 0; i < 3; ++i) {
     const char* names[] = {"x (m)", "y (m)", "z (m)"};
     ui::slide(names[i], wanted.position[i], -2.0, 2.0, "Where the file's origin is", "%.3f");
@@ -100,7 +100,7 @@ void meshSection(ViewSession& session) {
     }
     placeWidgets(wanted);
     if (ui::button("Remove", "Out of the scene; the file stays as it is")) {
-      Scene without = session.sceneToArrange();
+      Scene without = session.currentScene();
       without.meshes.erase(without.meshes.begin() + static_cast<std::ptrdiff_t>(i));
       session.requests.arrange = without;
     }
@@ -140,7 +140,10 @@ void hairPanel(ViewSession& session) {
         ui::faintText(groupedDigits(asset.info.strand_count) + " strands, " + groupedDigits(asset.info.vertex_count) + " vertices, " +
                       asset.opened->format);
         if (session.scene.assets.size() > 1 && ui::smallButton("Remove", "Out of the scene; the file stays as it is")) {
-          Scene without = session.sceneToArrange();
+          Scene without = session.currentScene();
+          if (asset.opened->recipe && asset.opened->recipe->drape_on_bust) {
+            without.head.reset();  // there for this groom; others may still lie on it
+          }
           without.assets.erase(without.assets.begin() + static_cast<std::ptrdiff_t>(i));
           session.requests.arrange = without;
         }
@@ -149,7 +152,7 @@ void hairPanel(ViewSession& session) {
         session.requests.open_file = true;
       }
       ImGui::SameLine();
-      if (ui::button("Add...", "Another strand file beside what is open", session.loaded())) {
+      if (ui::button("Add...", "Another strand file into the scene, at its own coordinates", session.loaded())) {
         session.requests.add_file = true;
       }
       for (const std::string& note : session.notes) {
@@ -167,7 +170,7 @@ void hairPanel(ViewSession& session) {
       materialWidgets(wanted, session.plain->assets[i]);
       followWidgets(wanted);
       placeWidgets(wanted);
-      if (ui::button("As at first", "The material that grooms start with")) {
+      if (ui::button("Reset material", "The material that grooms start with")) {
         wanted.material = pictureMaterial();
         wanted.color_given = false;
         wanted.width_mm = 0.0;

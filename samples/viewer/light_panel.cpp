@@ -3,6 +3,7 @@
 #include "view_session.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace forelock::samples {
 
@@ -26,26 +27,33 @@ void pointOf(const char* label, glm::dvec3& point, const char* words) {
   }
 }
 
+const char* roleOf(const SceneLight& light) {
+  if (light.kind != FLK_LIGHT_DIRECTIONAL) {
+    return light.kind == FLK_LIGHT_POINT ? "lamp" : "spot";
+  }
+  return std::abs(light.azimuth_deg) > 100.0 ? "rim" : std::abs(light.azimuth_deg) > 75.0 ? "side" : "key";
+}
+
 // False: the light is to go.
 bool lightWidgets(SceneLight& light) {
   ui::choose("Kind", light.kind, lightKindNames(), "directional: a sun, seen from the camera; point: a lamp; spot: a lamp with a cone");
   if (light.kind == FLK_LIGHT_DIRECTIONAL) {
-    ui::slide("Azimuth", light.azimuth_deg, -180.0, 180.0, "Degrees, seen from the camera: 0 shines along the view, negative comes from the left", "%.0f");
-    ui::slide("Elevation", light.elevation_deg, -90.0, 90.0, "Degrees above the view", "%.0f");
+    ui::slide("Azimuth (deg)", light.azimuth_deg, -180.0, 180.0, "Seen from the camera: 0 shines along the view, negative comes from the left, beyond 90 from behind", "%.0f");
+    ui::slide("Elevation (deg)", light.elevation_deg, -90.0, 90.0, "Above the view", "%.0f");
   } else {
     pointOf("Position", light.position, "Where the lamp is, in the world");
     if (light.kind == FLK_LIGHT_SPOT) {
       pointOf("Target", light.target, "What it shines at");
-      ui::slide("Full light within", light.inner_angle_deg, 0.0, 85.0, "Degrees from the axis", "%.0f");
+      ui::slide("Inner angle (deg)", light.inner_angle_deg, 0.0, 85.0, "Full light within, from the axis", "%.0f");
       light.outer_angle_deg = std::max(light.outer_angle_deg, light.inner_angle_deg + 1.0);
-      ui::slide("None beyond", light.outer_angle_deg, light.inner_angle_deg + 1.0, 90.0, "Degrees from the axis", "%.0f");
+      ui::slide("Outer angle (deg)", light.outer_angle_deg, light.inner_angle_deg + 1.0, 90.0, "No light beyond, from the axis", "%.0f");
     }
     ui::slide("Range (m)", light.range_m, 0.0, 20.0, "Nothing arrives beyond; 0 is no end", "%.2f");
     ui::slide("Source (mm)", light.source_radius_mm, 0.1, 500.0, "Radius of what shines: nearer than this it grows no brighter", "%.3g", true);
   }
   ui::slide("Intensity", light.intensity, 0.0, 10.0, "Times the exposure; of a lamp what arrives at one metre", "%.3g");
   colorOf("Colour", light.color, "Of the light");
-  ui::checkbox("Hair casts shadows", light.shadow, "Hair takes light from hair behind it, and from the head: a shadow map a light, six of a lamp amid hair");
+  ui::checkbox("Hair casts shadows", light.shadow, "Hair takes light from the hair and the head behind it. Costs one shadow map; of a lamp amid the hair six");
   if (light.shadow) {
     const std::vector<uint32_t> sizes{256, 512, 1024, 2048, 4096, 8192};
     uint32_t index = 0;
@@ -69,12 +77,16 @@ void lightPanel(ViewSession& session) {
   const ui::Scope scope("Lights");
   Scene& scene = session.scene;
   if (ui::slide("Exposure", scene.exposure, 1e-2, 1e3, "What all light is multiplied by", "%.4g", true)) {
-    session.exposure_chosen = false;
+    session.auto_exposure = false;
   }
-  ui::checkbox("Chosen by itself", session.exposure_chosen, "Whenever lights or materials change, as `forelock preview` chooses it");
+  if (ui::button("Expose now", "Chooses the exposure for the picture as it is, as for the first one")) {
+    scene.exposure = 0.0;
+  }
+  ImGui::SameLine();
+  ui::checkbox("Auto exposure", session.auto_exposure, "Chosen anew whenever lights or materials change; else what they change is seen as it is");
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const std::string name = "Light " + std::to_string(i + 1);
-    const bool open = ImGui::TreeNodeEx(name.c_str(), i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    const bool open = ImGui::TreeNodeEx(name.c_str(), i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0, "%s, %s", name.c_str(), roleOf(scene.lights[i]));
     ui::noteItem(name, open);
     if (open) {
       const ui::Scope inside(name);
@@ -93,15 +105,15 @@ void lightPanel(ViewSession& session) {
     light.color = color;
     scene.lights.push_back(light);
   };
-  if (ui::button("Key", "A light from the front left, warm", room)) {
+  if (ui::button("Add key", "A light from the front left, warm", room)) {
     add(-42.0, 44.0, 1.0, {1.0, 0.97, 0.93});
   }
   ImGui::SameLine();
-  if (ui::button("Rim", "A light from behind, which draws the outline", room)) {
+  if (ui::button("Add rim", "A light from behind, which draws the outline", room)) {
     add(155.0, 35.0, 1.5, {0.9, 0.95, 1.0});
   }
   ImGui::SameLine();
-  if (ui::button("Lamp", "A lamp beside the hair", room)) {
+  if (ui::button("Add lamp", "A lamp beside the hair", room)) {
     SceneLight lamp;
     lamp.kind = FLK_LIGHT_POINT;
     lamp.position = session.bounds.high + glm::dvec3(0.3, 0.1, 0.3);

@@ -24,7 +24,7 @@ void methodWidgets(MethodChoice& choice, bool graphics) {
   if (choice.sorts()) {
     const uint32_t k = choice.k == FLK_K_NONE || !choice.hasCore() ? 0 : choice.k == 0 ? 8 : choice.k;
     uint32_t sorted = choice.k_sort == 0 ? std::max(8u, k) : choice.k_sort;
-    if (ui::slide("k sorted", sorted, std::max(k, 1u), 32, "Fragments of a pixel that are put in order; at least k")) {
+    if (ui::slide("k sorted", sorted, std::max(k, 1u), 32, "Fragments of a pixel that are put in order: at least k, more where a cheap shade is to be blended in order too")) {
       choice.k_sort = sorted;
     }
   }
@@ -82,7 +82,7 @@ void comparePanel(ViewSession& session) {
     if (session.compare == Compare::split) {
       ui::slide("Divider", session.divider, 0.02, 0.98, "Can be dragged in the picture too", "%.2f");
     } else {
-      ui::slide("Times", session.gain, 1.0, 256.0, "What differences are multiplied by, linear", "%.0f", true);
+      ui::slide("Gain", session.gain, 1.0, 256.0, "What differences are multiplied by, linear", "%.0f", true);
     }
   }
   ui::checkbox("Measure the error", session.measure_error,
@@ -90,10 +90,10 @@ void comparePanel(ViewSession& session) {
   if (session.measure_error) {
     char text[64];
     std::snprintf(text, sizeof text, std::isnan(session.error) ? "..." : "%.3f of 255", session.error);
-    ui::fact("Error", text);
+    ui::fact("RMSE", text);
     if (session.compare != Compare::none) {
       std::snprintf(text, sizeof text, std::isnan(session.error_second) ? "..." : "%.3f of 255", session.error_second);
-      ui::fact("of the second", text);
+      ui::fact("RMSE, right", text);
     }
   }
 }

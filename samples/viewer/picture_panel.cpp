@@ -24,15 +24,15 @@ void picturePanel(ViewSession& session) {
   if (ui::button("Open scene...", "Such a file")) {
     ask.open_scene = true;
   }
-  ui::checkbox("Turn by itself", session.turning, "Around the hair (T)");
+  ui::checkbox("Auto-rotate", session.turning, "Around the hair, in the window (T)");
   if (session.turning) {
-    ui::slide("Degrees a second", session.turn_speed, -180.0, 180.0, "How fast", "%.0f");
+    ui::slide("Speed (deg/s)", session.turn_speed, -180.0, 180.0, "How fast", "%.0f");
   }
   static const std::vector<uint32_t> kViews{8, 12, 24, 36, 72};
   static const std::vector<std::string> kNames{"8 views", "12 views", "24 views", "36 views", "72 views"};
-  ui::choose("All around", session.turntable_choice, kNames, "Views of a turntable, evenly around what is looked at");
+  ui::choose("Turntable", session.turntable_choice, kNames, "Pictures evenly around what is looked at");
   ImGui::SameLine();
-  if (ui::smallButton("Save", "Each view as a picture, numbered, beside the name that is asked for")) {
+  if (ui::smallButton("Save...", "A picture for each view: NAME-000.png and on")) {
     ask.turntable = kViews[session.turntable_choice];
   }
 }

@@ -47,8 +47,11 @@ void sayAttributes(const FlkStrands& one, const FlkAssetInfo& info, double width
   const size_t tip = one.vertex_count - 1;
   facts.lines.emplace_back("root", triple(one.positions));
   facts.lines.emplace_back("tip", triple(one.positions + 3 * tip));
-  const auto width = [&](size_t v) { return number(2.0 * double{one.radii[v]} * width_scale); };
-  facts.lines.emplace_back("width", ends(width(0), width(tip)) + (info.has_radii ? "" : " (a default: the source has none)"));
+  const auto width = [&](size_t v, double scale) { return number(2.0 * double{one.radii[v]} * scale); };
+  facts.lines.emplace_back("width", ends(width(0, 1.0), width(tip, 1.0)) + (info.has_radii ? "" : " (a default: the source has none)"));
+  if (width_scale != 1.0) {
+    facts.lines.emplace_back("as drawn", ends(width(0, width_scale), width(tip, width_scale)));
+  }
   if (one.root_uvs) {
     facts.lines.emplace_back("root UV", number(double{one.root_uvs[0]}) + ", " + number(double{one.root_uvs[1]}));
   }

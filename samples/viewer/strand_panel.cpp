@@ -97,14 +97,18 @@ void strandPanel(ViewSession& session) {
   options.faults = a < session.faults.size() ? &session.faults[a] : nullptr;
   options.follow = asset.follow.count;
   options.width_scale = static_cast<double>(asset.material.width_scale);
+  const double unit_mm = 1e3 * session.scene.assets[a].scale;
+  char unit[64];
+  std::snprintf(unit, sizeof unit, "Lengths in the asset's unit: %.4g mm here", unit_mm);
+  ui::faintText(unit);
   for (const auto& [name, value] : strandFacts(*asset.opened, strand, options).lines) {
     ui::fact(name.c_str(), value);
   }
   FlkStrands strands = {};
   flkAssetGetStrands(asset.opened->asset.get(), &strands);
   const std::vector<VertexRow> rows = vertexRows(strands, strand);
-  if (ImGui::BeginTable("vertices", 4, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
-                        ImVec2(0.0f, ImGui::GetFontSize() * 14.0f))) {
+  if (ImGui::BeginTable("vertices", 4, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
+                        ImVec2(0.0f, std::max(ImGui::GetContentRegionAvail().y, ImGui::GetFontSize() * 10.0f)))) {
     for (const char* name : {"", "position", "width", "along"}) {
       ImGui::TableSetupColumn(name);
     }
@@ -120,7 +124,7 @@ void strandPanel(ViewSession& session) {
         const bool under = session.picked && session.picked->vertex == row.index;
         ImGui::TextColored(under ? ImVec4(0.95f, 0.75f, 0.3f, 1.0f) : ImVec4(0.6f, 0.6f, 0.62f, 1.0f), "%u", row.index);
         ImGui::TableNextColumn();
-        ImGui::Text("%.4g %.4g %.4g", static_cast<double>(row.position.x), static_cast<double>(row.position.y), static_cast<double>(row.position.z));
+        ImGui::Text("%.3g %.3g %.3g", static_cast<double>(row.position.x), static_cast<double>(row.position.y), static_cast<double>(row.position.z));
         ImGui::TableNextColumn();
         ImGui::Text("%.3g", 2.0 * static_cast<double>(row.radius));
         ImGui::TableNextColumn();

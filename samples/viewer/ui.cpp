@@ -204,12 +204,11 @@ bool menuCheck(const char* label, const char* keys, bool& value) {
   return pressed;
 }
 
-bool textInput(const char* label, std::string& value, const char* words) {
-  labelWidth();
-  const bool changed = ImGui::InputText(label, &value);
+bool nameInput(const char* label, std::string& value, const char* words) {
+  const bool entered = ImGui::InputText(label, &value, ImGuiInputTextFlags_EnterReturnsTrue);
   tip(words);
   noteItem(label);
-  return changed;
+  return entered;
 }
 
 void text(const std::string& words) { ImGui::TextWrapped("%s", words.c_str()); }

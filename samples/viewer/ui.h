@@ -54,7 +54,7 @@ bool color(const char* label, float linear[3], const char* tip);  // shown and p
 bool selectable(const std::string& label, bool selected);
 bool menuItem(const char* label, const char* keys, bool enabled = true);
 bool menuCheck(const char* label, const char* keys, bool& value);
-bool textInput(const char* label, std::string& text, const char* tip);
+bool nameInput(const char* label, std::string& text, const char* tip);  // true on Enter
 float encodeSrgb(float linear);
 void tip(const char* text);      // of the last widget
 void text(const std::string& words);         // wrapped

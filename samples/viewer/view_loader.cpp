@@ -103,7 +103,9 @@ void ViewLoader::run(Wanted wanted) {
           wake_();
         }
       };
+      const size_t open_before = wanted.files.assets.size();
       readAssets(wanted, progress);
+      result->read = wanted.files.assets.size() > open_before;
       if (wanted.scene.assets.empty()) {
         result->meshes = wanted.scene.meshes;
         result->error = wanted.scene.meshes.back().source + ": is a mesh without hair. Open hair first, then this beside it.";

@@ -16,13 +16,13 @@ struct Key {
 };
 
 constexpr Key kMouse[] = {
-    {"left drag", "turn around the hair"},
-    {"right or middle drag, shift + left", "move"},
-    {"wheel", "nearer, towards the mouse"},
+    {"left drag", "orbit"},
+    {"right or middle drag, shift + left", "pan"},
+    {"wheel", "zoom, towards the mouse"},
     {"click", "pick a strand"},
     {"double click", "pick a strand and go there"},
     {"drag the divider", "more of one method or the other"},
-    {"drop files", "open, several beside each other; with shift beside what is open"},
+    {"drop files", "open; with shift, or a mesh: add to the scene"},
 };
 constexpr Key kKeys[] = {
     {"Ctrl O", "open a strand file"},
@@ -32,13 +32,13 @@ constexpr Key kKeys[] = {
     {"Ctrl C", "copy the command line that makes this picture"},
     {"F", "all of the hair in view"},
     {"G", "what is selected in view"},
-    {"R", "the view as at first"},
+    {"R", "reset the view"},
     {"1 ... 6", "core_tail, exact, forward, core_only, all_low, hard"},
     {"C", "two methods beside each other"},
     {"D", "difference of two methods"},
     {"E", "measure the error against exact"},
     {"L", "how many layers a pixel has; its number at the mouse"},
-    {"T", "turn by itself"},
+    {"T", "auto-rotate"},
     {"Tab", "panels away, and back"},
     {"Esc", "deselect, close"},
     {"F1", "this list"},
@@ -61,9 +61,9 @@ void keyTable(const char* name, const Key* rows, size_t count) {
 void fileMenu(ViewSession& session) {
   Requests& ask = session.requests;
   ask.open_file = ui::menuItem("Open...", "Ctrl O") || ask.open_file;
-  ask.add_file = ui::menuItem("Add beside...", "", session.loaded()) || ask.add_file;
+  ask.add_file = ui::menuItem("Add to scene...", "", session.loaded()) || ask.add_file;
   ask.add_mesh = ui::menuItem("Add a mesh...", "", session.loaded()) || ask.add_mesh;
-  ask.reload = ui::menuItem("Read again", "F5", session.loaded()) || ask.reload;
+  ask.reload = ui::menuItem("Reload", "F5", session.loaded()) || ask.reload;
   if (ImGui::BeginMenu("Open a groom")) {
     ui::noteItem("Open a groom", true);
     for (const std::string& name : groomNames()) {
@@ -100,7 +100,7 @@ void viewMenu(ViewSession& session) {
   Requests& ask = session.requests;
   ask.frame_all = ui::menuItem("Frame all", "F", session.loaded()) || ask.frame_all;
   ask.frame_selection = ui::menuItem("Frame selection", "G", !session.selection.strands.empty()) || ask.frame_selection;
-  ask.reset_view = ui::menuItem("As at first", "R", session.loaded()) || ask.reset_view;
+  ask.reset_view = ui::menuItem("Reset view", "R", session.loaded()) || ask.reset_view;
   struct Side {
     const char* name;
     double azimuth_deg, elevation_deg;
@@ -125,19 +125,19 @@ void viewMenu(ViewSession& session) {
     }
   }
   ImGui::Separator();
-  ui::menuCheck("Turn by itself", "T", session.turning);
+  ui::menuCheck("Auto-rotate", "T", session.turning);
   ui::menuCheck("Left panel", "", session.settings.show_left);
   ui::menuCheck("Right panel", "", session.settings.show_right);
   ImGui::Separator();
-  ui::menuCheck("Quicker while moving", "", session.settings.adapt);
-  ui::menuCheck("Wait for the screen", "", session.settings.vsync);
+  ui::menuCheck("Reduced while moving", "", session.settings.adapt);
+  ui::menuCheck("V-sync", "", session.settings.vsync);
   for (const float scale : {1.0f, 1.5f, 2.0f}) {
-    const std::string label = scale == 1.0f ? "Letters 100 %" : scale == 1.5f ? "Letters 150 %" : "Letters 200 %";
+    const std::string label = scale == 1.0f ? "UI scale 100 %" : scale == 1.5f ? "UI scale 150 %" : "UI scale 200 %";
     if (ui::menuItem(label.c_str(), "")) {
       ask.ui_scale = scale;
     }
   }
-  if (ui::menuItem("Letters as the screen's", "")) {
+  if (ui::menuItem("UI scale of the screen", "")) {
     ask.ui_scale = 0.0f;
   }
 }
@@ -219,13 +219,13 @@ void alertWindow(ViewSession& session) {
   }
 }
 
-void busyOverlay(const ViewSession& session, float x, float y, float width, float height) {
+void busyOverlay(ViewSession& session, float x, float y, float width, float height) {
   if (session.busy.empty()) {
     return;
   }
   ImGui::SetNextWindowPos(ImVec2(x + 0.5f * width, y + 0.5f * height), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowSize(ImVec2(std::min(width * 0.8f, ImGui::GetFontSize() * 28.0f), 0.0f));
-  ImGui::Begin("##busy", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing |
+  ImGui::Begin("##busy", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoFocusOnAppearing |
                                       ImGuiWindowFlags_AlwaysAutoResize);
   ui::text(session.busy);
   if (session.busy_share >= 0.0f) {
@@ -233,6 +233,9 @@ void busyOverlay(const ViewSession& session, float x, float y, float width, floa
   } else {  // something moves, so that it is seen to go on
     const double t = std::fmod(ImGui::GetTime(), 1.5) / 1.5;
     ImGui::ProgressBar(static_cast<float>(t), ImVec2(-1.0f, 0.0f), "");
+  }
+  if (session.can_cancel && ui::button("Cancel", "What is written already stays")) {
+    session.requests.cancel = true;
   }
   ImGui::End();
 }

@@ -103,9 +103,9 @@ void ViewScript::clickItem(const std::string& name) {
 
 // Every item of the panels that is there, once: those that appear by a click too. What would leave the viewer or ask for a file is left.
 void ViewScript::walkNext() {
-  static const char* const kLeft[] = {"Quit", "Open...", "Add...", "Add beside...", "Open a scene...", "Open scene...", "Save scene...", "Save picture...",
-                                      "Save the scene...", "Save the picture...", "Add a mesh...", "Remove", "All around/", "Wait for the screen",
-                                      "Letters", "Recent", "Open a groom"};
+  static const char* const kLeft[] = {"Quit", "Open...", "Add...", "Add to scene...", "Open a scene...", "Open scene...", "Save scene...", "Save picture...",
+                                      "Save the scene...", "Save the picture...", "Add a mesh...", "Remove", "Turntable/", "V-sync",
+                                      "UI scale", "Recent", "Open a groom"};
   // A click closes a menu: it is opened again for each of its lines.
   const auto menu = std::find_if(ui::items().begin(), ui::items().end(), [&](const ui::Item& item) { return item.menu && item.name == walk_only_; });
   if (menu != ui::items().end() && !menu->open) {
@@ -223,7 +223,8 @@ bool ViewScript::place(Input& input) {
   const bool rests = std::abs(x - seen_x_) < 0.5f && std::abs(y - seen_y_) < 0.5f;  // what is above it may just have opened
   seen_x_ = x;
   seen_y_ = y;
-  if (tries_ == 0 || x < 0.0f || y < 24.0f || x >= whole.x || y >= whole.y - 24.0f) {
+  const float top = found->menu ? 0.0f : 24.0f;  // below the menu bar
+  if (tries_ == 0 || x < 0.0f || y < top || x >= whole.x || y >= whole.y - 24.0f) {
     ui::reveal(input.find);
     return false;
   }

@@ -19,12 +19,6 @@ Scene ViewSession::currentScene() const {
   return current;
 }
 
-Scene ViewSession::sceneToArrange() const {
-  Scene arranged = currentScene();
-  arranged.exposure = exposure_chosen ? 0.0 : arranged.exposure;
-  return arranged;
-}
-
 Scene sceneOf(const ViewSession& session, const std::string& source, bool add) {
   Scene scene = session.scene;
   SceneAsset asset;
@@ -32,8 +26,6 @@ Scene sceneOf(const ViewSession& session, const std::string& source, bool add) {
   if (!add) {
     scene.assets.clear();
     scene.head.reset();
-  }
-  if (!add || session.exposure_chosen) {
     scene.exposure = 0.0;
   }
   scene.assets.push_back(asset);

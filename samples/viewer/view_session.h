@@ -41,6 +41,7 @@ struct Requests {
   std::optional<std::string> camera;      // of the groom
   std::optional<float> ui_scale;
   uint32_t turntable = 0;                 // views to write
+  bool cancel = false;                    // them
 };
 
 struct ViewSession {
@@ -75,10 +76,14 @@ struct ViewSession {
   double frame_ms = 0.0;                  // of the last picture, from planning until it was there
   double share = 1.0;                     // of the window's resolution that was drawn
   bool few_strands = false;               // the last picture was of a level of detail
-  bool exposure_chosen = true;            // the exposure follows when the light changes
+  bool auto_exposure = false;             // the exposure is chosen again when lights or materials change
+  bool lists_grow = false;                // the last picture overflowed and is drawn again
+  bool hide_panels = false;               // with a key; not remembered, so that nobody starts without them
+  bool used_mouse = false;                // in the picture: the hint may go
 
   std::string busy;                       // what is under way, for a progress bar
   float busy_share = -1.0f;
+  bool can_cancel = false;                // it
   std::string alert;                      // to be read and closed
   std::string status;                     // a line at the bottom
   std::vector<std::string> notes;         // of the stage
@@ -88,7 +93,7 @@ struct ViewSession {
   bool show_strand = false;  // its panel to the front
 
   // A file dialogue.
-  enum class Browse { none, open, add, mesh, scene, save_scene, save_picture } browse = Browse::none;
+  enum class Browse { none, open, add, mesh, scene, save_scene, save_picture, save_turntable } browse = Browse::none;
 
   bool loaded() const { return plain != nullptr; }
   bool shaded() const { return scene.display == FLK_DISPLAY_SHADED && scene.coloring == StrandColoring::none; }
@@ -97,8 +102,6 @@ struct ViewSession {
   void flyTo(const Orbit& orbit_there);
   // With the camera of the window in it.
   Scene currentScene() const;
-  // The same to be opened anew with other files: an exposure that was chosen is chosen again.
-  Scene sceneToArrange() const;
 };
 
 // Scene of one asset with what the person has set of lights, method and camera axes.
@@ -116,6 +119,6 @@ void strandPanel(ViewSession& session);
 void picturePanel(ViewSession& session);
 void helpWindow(ViewSession& session);
 void alertWindow(ViewSession& session);
-void busyOverlay(const ViewSession& session, float x, float y, float width, float height);
+void busyOverlay(ViewSession& session, float x, float y, float width, float height);
 
 }  // namespace forelock::samples

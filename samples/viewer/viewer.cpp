@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace forelock::samples {
 
@@ -59,7 +60,7 @@ void Viewer::loseDevice(const std::string& why) {
 }
 
 bool Viewer::settled() const {
-  return !loader_.busy() && !opening_ && !loader_.studying() && !sounding_ && (!session_.loaded() || (drawn_full_ && !again_)) &&
+  return !loader_.busy() && !ready_ && !opening_ && !loader_.studying() && !sounding_ && (!session_.loaded() || (drawn_full_ && !again_)) &&
          !session_.approach_to && turntable_views_ == 0;
 }
 
@@ -70,16 +71,20 @@ void Viewer::frame() {
   if (!first_picture_ && (opening_ || session_.loaded())) {
     held_ms_ = std::max(held_ms_, 1e3 * dt);
   }
-  if (std::unique_ptr<LoadedStage> loaded = loader_.take()) {
-    adopt(std::move(loaded));
+  const bool at_hand = ready_ != nullptr;  // told by the last frame: what follows takes a while
+  if (at_hand) {
+    adopt(std::exchange(ready_, nullptr));
+  } else {
+    ready_ = loader_.take();
   }
   if (std::unique_ptr<LoadedExtras> extras = loader_.takeExtras()) {
     adoptExtras(std::move(extras));
   }
   takeDropped();
-  session_.busy = loader_.busy() ? "Opening " + loader_.label() : turntable_views_ > 0 && !turntable_path_.empty() ? "Drawing views" : "";
-  session_.busy_share = loader_.busy() ? loader_.share()
-                                       : static_cast<float>(turntable_at_) / static_cast<float>(std::max(turntable_views_, 1u));
+  const bool turntable = turntable_views_ > 0 && !turntable_path_.empty();
+  session_.busy = loader_.busy() ? "Opening " + loader_.label() : ready_ ? "Drawing the first picture" : turntable ? "Drawing the turntable" : "";
+  session_.busy_share = loader_.busy() ? loader_.share() : ready_ ? -1.0f : static_cast<float>(turntable_at_) / static_cast<float>(std::max(turntable_views_, 1u));
+  session_.can_cancel = turntable && !loader_.busy();
   const float scale = session_.settings.ui_scale > 0.0f ? session_.settings.ui_scale : window_->contentScale();
   if (scale != ui_scale_) {
     ui_scale_ = scale;
@@ -138,12 +143,14 @@ void Viewer::frame() {
     }
     afterPicture(ms);
   }
-  if (!first_picture_ && (planned || sounding_)) {
+  if (!first_picture_ && !opening_ && (planned || sounding_)) {
     first_picture_ = true;
     char text[64];
     std::snprintf(text, sizeof text, ", first picture after %.2f s", seconds(Clock::now() - opened_));
-    session_.status += text;
+    opened_text_ += text;
+    session_.say(opened_text_);
   }
+  picture_is_new_ = planned || sounding_;
   ++frames_;
   if (settled() && session_.loaded()) {
     ++settled_frames_;
@@ -189,7 +196,7 @@ int Viewer::run() {
       break;
     }
     const bool busy = script_.active() || session_.turning || session_.approach_to || turntable_views_ > 0 || !settled() || options_.frames > 0 ||
-                      frames_ < 3 || viewport_.dragging() || window_->input().waiting();
+                      frames_ < 3 || picture_is_new_ || viewport_.dragging() || window_->input().waiting();
     ViewWindow::poll(window_->hidden() && !script_.active() ? kIdle_s : busy ? 0.0 : kIdle_s);
     try {
       frame();

@@ -74,6 +74,7 @@ private:
   std::unique_ptr<ViewWindow> window_;
   std::unique_ptr<Device> device_;
   ViewLoader loader_;
+  std::unique_ptr<LoadedStage> ready_;  // to be taken over by the next frame
   ViewScript script_;
   FileBrowser browser_;
   Viewport viewport_;
@@ -85,7 +86,9 @@ private:
   Clock::time_point last_change_ = Clock::now(), last_frame_ = Clock::now(), opened_ = Clock::now(), lost_{};
   double cheap_share_ = 0.35, full_ms_ = 0.0;
   bool sounding_ = false;      // what is shown is the small picture that told the exposure
+  std::string opened_text_;
   double held_ms_ = 0.0;       // longest time between two frames from opening until the first picture
+  bool picture_is_new_ = false;  // its numbers are not on the screen yet
   bool opening_ = false, first_picture_ = false, minimised_ = false;
   uint32_t frames_ = 0, settled_frames_ = 0;
   std::vector<double> moving_ms_;   // from the input to the picture, while something moved

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 namespace forelock::samples {
 
@@ -23,6 +24,14 @@ bool strandSuffix(const std::string& name) {
   static const char* const kSuffixes[] = {".tfx", ".hair", ".ply", ".gltf", ".glb", ".flk", ".data", ".bin", ".json"};
   const std::string suffix = fs::path(name).extension().string();
   return std::any_of(std::begin(kSuffixes), std::end(kSuffixes), [&](const char* known) { return suffix == known; });
+}
+
+bool namesAssets(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(size_t{1} << 20, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<size_t>(file.gcount()));
+  return text.find("\"assets\"") != std::string::npos;
 }
 
 bool meshSuffix(const std::string& name) { return fs::path(name).extension() == ".gltf" || fs::path(name).extension() == ".glb"; }
@@ -58,7 +67,7 @@ void Viewer::addMesh(const std::string& path) {
     session_.alert = path + ": open hair first, then a mesh beside it.";
     return;
   }
-  Scene scene = session_.sceneToArrange();
+  Scene scene = session_.currentScene();
   scene.meshes.emplace_back().source = path;
   open(scene, openFiles());
 }
@@ -71,14 +80,18 @@ void Viewer::openPath(const std::string& path, bool add) {
     return;
   }
   const std::string whole = path.rfind("groom:", 0) == 0 ? path : fs::absolute(path, error).string();
-  if (sceneSuffix(path)) {  // a recipe is one too: told by whether it parses as a scene with assets
+  if (sceneSuffix(path)) {  // a groom's recipe is JSON too, but has no assets
     try {
       const Scene scene = loadScene(path);
       if (!scene.assets.empty()) {
         open(scene);
         return;
       }
-    } catch (const std::exception&) {
+    } catch (const std::exception& failure) {
+      if (namesAssets(path)) {
+        session_.alert = failure.what();
+        return;
+      }
     }
   }
   const bool beside = add && session_.loaded();
@@ -104,7 +117,7 @@ void Viewer::takeDropped() {
 void Viewer::adopt(std::unique_ptr<LoadedStage> loaded) {
   opening_ = false;
   if (!loaded->plain && !loaded->meshes.empty() && session_.loaded()) {  // meshes go beside the hair that is open
-    Scene scene = session_.sceneToArrange();
+    Scene scene = session_.currentScene();
     scene.meshes.insert(scene.meshes.end(), loaded->meshes.begin(), loaded->meshes.end());
     open(scene, openFiles());
     return;
@@ -140,7 +153,6 @@ void Viewer::adopt(std::unique_ptr<LoadedStage> loaded) {
   session_.bounds = {low, high};
   encloseMeshes();
   session_.scene = stage.scene;
-  session_.exposure_chosen = stage.scene.exposure <= 0.0;  // one that was asked for stays
   viewport_.size(session_.scene.width, session_.scene.height);
   session_.plain->scene.width = session_.scene.width;
   session_.plain->scene.height = session_.scene.height;
@@ -156,9 +168,13 @@ void Viewer::adopt(std::unique_ptr<LoadedStage> loaded) {
     names += (names.empty() ? "" : ", ") + (asset.source.rfind("groom:", 0) == 0 ? asset.source : fs::path(asset.source).filename().string());
   }
   window_->setTitle(names + " - Forelock");
-  char text[64];
-  std::snprintf(text, sizeof text, ", opened in %.2f s", loaded->seconds);
-  session_.say(names + text);
+  opened_text_ = names;
+  if (loaded->read) {
+    char text[64];
+    std::snprintf(text, sizeof text, ", opened in %.2f s", loaded->seconds);
+    opened_text_ += text;
+  }
+  session_.say(opened_text_);
   loader_.study(*session_.plain);
 }
 
@@ -176,13 +192,19 @@ void Viewer::adoptExtras(std::unique_ptr<LoadedExtras> extras) {
 void Viewer::browse(ViewSession::Browse what) {
   session_.browse = what;
   const std::string& folder = session_.settings.last_folder;
+  std::string name = "hair";  // of the first asset
+  if (session_.loaded()) {
+    const std::string& source = session_.scene.assets[0].source;
+    name = source.rfind("groom:", 0) == 0 ? source.substr(6) : fs::path(source).stem().string();
+  }
   switch (what) {
     case ViewSession::Browse::open: browser_.open("Open a strand file", folder, strandSuffix); break;
-    case ViewSession::Browse::add: browser_.open("Add a strand file beside what is open", folder, strandSuffix); break;
-    case ViewSession::Browse::mesh: browser_.open("Put a mesh beside the hair", folder, meshSuffix); break;
+    case ViewSession::Browse::add: browser_.open("Add a strand file to the scene", folder, strandSuffix); break;
+    case ViewSession::Browse::mesh: browser_.open("Add a mesh to the scene", folder, meshSuffix); break;
     case ViewSession::Browse::scene: browser_.open("Open a scene", folder, sceneSuffix); break;
-    case ViewSession::Browse::save_scene: browser_.open("Save the scene", folder, sceneSuffix, "scene.json"); break;
-    case ViewSession::Browse::save_picture: browser_.open("Save the picture", folder, isImagePath, "hair.png"); break;
+    case ViewSession::Browse::save_scene: browser_.open("Save the scene", folder, sceneSuffix, name + "-scene.json"); break;
+    case ViewSession::Browse::save_picture: browser_.open("Save the picture", folder, isImagePath, name + ".png"); break;
+    case ViewSession::Browse::save_turntable: browser_.open("Save the turntable as numbered pictures, NAME-000.png and on", folder, isImagePath, name + "-turn.png", false); break;
     default: break;
   }
 }
@@ -197,21 +219,10 @@ void Viewer::takeBrowsed() {
     case ViewSession::Browse::open: openPath(*path, false); break;
     case ViewSession::Browse::add: openPath(*path, true); break;
     case ViewSession::Browse::mesh: addMesh(*path); break;
-    case ViewSession::Browse::scene:
-      try {
-        open(loadScene(*path));
-      } catch (const std::exception& error) {
-        session_.alert = *path + ": " + error.what();
-      }
-      break;
+    case ViewSession::Browse::scene: openPath(*path, false); break;
     case ViewSession::Browse::save_scene: saveSceneTo(*path); break;
-    case ViewSession::Browse::save_picture:
-      if (turntable_views_ > 0 && turntable_path_.empty()) {
-        turntable_path_ = *path;
-      } else {
-        savePictureTo(*path);
-      }
-      break;
+    case ViewSession::Browse::save_picture: savePictureTo(*path); break;
+    case ViewSession::Browse::save_turntable: turntable_path_ = *path; break;
     default: break;
   }
 }

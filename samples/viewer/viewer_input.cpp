@@ -46,11 +46,9 @@ void Viewer::keys() {
   for (uint32_t i = 0; i <= FLK_METHOD_HARD; ++i) {
     if (pressed(GLFW_KEY_1 + static_cast<int>(i))) session_.scene.method = i;
   }
-  if (pressed(GLFW_KEY_TAB)) {
-    const bool on = session_.settings.show_left || session_.settings.show_right;
-    session_.settings.show_left = session_.settings.show_right = !on;
-  }
+  if (pressed(GLFW_KEY_TAB)) session_.hide_panels = !session_.hide_panels;
   if (pressed(GLFW_KEY_ESCAPE)) {
+    session_.requests.cancel = true;
     session_.show_help = session_.show_about = false;
     session_.selection = {};
     session_.picked.reset();
@@ -91,7 +89,7 @@ void Viewer::takeRequests() {
   using Browse = ViewSession::Browse;
   if (ask.open) open(*ask.open);
   if (ask.arrange) open(*ask.arrange, openFiles());
-  if (ask.reload && session_.loaded()) open(session_.sceneToArrange());
+  if (ask.reload && session_.loaded()) open(session_.currentScene());
   if (ask.open_file) browse(Browse::open);
   if (ask.add_file) browse(Browse::add);
   if (ask.add_mesh) browse(Browse::mesh);
@@ -102,7 +100,10 @@ void Viewer::takeRequests() {
     turntable_views_ = ask.turntable;
     turntable_at_ = 0;
     turntable_path_.clear();
-    browse(Browse::save_picture);
+    browse(Browse::save_turntable);
+  }
+  if (ask.cancel && turntable_views_ > 0) {
+    turntable_views_ = turntable_at_;  // the view that is under way is the last
   }
   if (ask.copy_command && session_.loaded()) {
     try {
@@ -161,7 +162,8 @@ void Viewer::drawUi() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const float top = ImGui::GetFrameHeight(), bottom = whole.y - ImGui::GetFrameHeight();
   const float panel = std::min(ImGui::GetFontSize() * 24.0f, whole.x * 0.3f);
-  const float left = session_.settings.show_left ? panel : 0.0f, right = session_.settings.show_right ? panel : 0.0f;
+  const bool shown = !session_.hide_panels;
+  const float left = shown && session_.settings.show_left ? panel : 0.0f, right = shown && session_.settings.show_right ? panel : 0.0f;
   constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                       ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus;
   const LayerFacts* facts = device_->layers->drawn(kLayerFirst) ? &device_->layers->facts(kLayerFirst) : nullptr;
@@ -211,13 +213,16 @@ void Viewer::drawUi() {
   ImGui::SetNextWindowSize(ImVec2(whole.x, whole.y - bottom));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(8.0f, 2.0f));
   if (ImGui::Begin("##status", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar)) {
-    ImGui::TextUnformatted(session_.status.c_str());
+    ImGui::TextUnformatted(session_.hide_panels ? "Tab brings the panels back" : session_.status.c_str());
     if (facts) {
       char text[128];
       std::snprintf(text, sizeof text, "%s   %.1f ms%s", methodText(session_.scene).c_str(), facts->statistics.milliseconds_frame,
-                    session_.share < 0.999 || session_.few_strands ? "   (quicker while it moves)" : "");
-      ImGui::SameLine(std::max(0.0f, whole.x - ImGui::CalcTextSize(text).x - 12.0f));
-      ImGui::TextDisabled("%s", text);
+                    sounding_ || !drawn_full_ ? "   (reduced, the full picture follows)" : "");
+      const float at = whole.x - ImGui::CalcTextSize(text).x - 12.0f;
+      if (at > ImGui::GetItemRectMax().x + ImGui::GetFontSize()) {
+        ImGui::SameLine(at);
+        ImGui::TextDisabled("%s", text);
+      }
     }
   }
   ImGui::End();

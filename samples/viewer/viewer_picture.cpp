@@ -111,7 +111,7 @@ void Viewer::applyEdits() {
   Scene lights = scene, before = applied_;
   lights.assets.clear(), before.assets.clear();
   light_changed = light_changed || lightsKey(lights) != lightsKey(before);
-  if (light_changed && session_.exposure_chosen) {
+  if (light_changed && session_.auto_exposure) {
     scene.exposure = 0.0;
   }
   applied_ = scene;
@@ -159,6 +159,9 @@ bool Viewer::planPicture(bool& planned) {
   std::string key = pictureKey(session_, camera);
   const auto now = Clock::now();
   if (key != drawn_key_) {
+    last_change_ = now;
+  }
+  if (window_->input().waiting()) {  // a full picture would hold it up
     last_change_ = now;
   }
   const bool moving = seconds(now - last_change_) < kStillAfter_s && turntable_views_ == 0;
@@ -218,7 +221,7 @@ bool Viewer::planPicture(bool& planned) {
 }
 
 void Viewer::afterPicture(double ms) {
-  again_ = device_->layers->finish();
+  session_.lists_grow = again_ = device_->layers->finish();
   const FlkStatistics& statistics = device_->layers->facts(kLayerFirst).statistics;
   FrameTimes times;
   std::copy(statistics.milliseconds, statistics.milliseconds + FLK_STAGE_COUNT, times.stage_ms.begin());

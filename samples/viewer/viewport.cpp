@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewport.h"
 
+#include "asset_source.h"
 #include "commands.h"
 #include "ui.h"
 #include "view_measure.h"
@@ -41,29 +42,75 @@ void Viewport::draw(ViewSession& session, ViewLayers& layers, const ViewportRect
   ImGui::Begin("##viewport", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
                                           ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
   ImGui::PopStyleVar();
-  ImGui::InvisibleButton("##picture", ImVec2(rect.width, rect.height),
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   if (session.loaded()) {
+    ImGui::InvisibleButton("##picture", ImVec2(rect.width, rect.height),
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     mouse(session, layers);
     drawSelection(session);
     drawLegend(session.stage()->legend);
     drawCount(session, layers);
-    if (session.compare == Compare::split && session.shaded()) {
-      ImDrawList* draw = ImGui::GetWindowDrawList();
-      const float y = rect.y + rect.height - ImGui::GetFontSize() * 1.6f, x = rect.x + session.divider * rect.width;
-      Scene second;
-      applyMethod(session.second, second);
-      const std::string left = methodText(session.scene), right = methodText(second);
-      draw->AddText(ImVec2(x - ImGui::CalcTextSize(left.c_str()).x - 8.0f, y), IM_COL32(235, 225, 200, 255), left.c_str());
-      draw->AddText(ImVec2(x + 8.0f, y), IM_COL32(235, 225, 200, 255), right.c_str());
-    }
+    drawCaptions(session);
   } else if (session.busy.empty()) {
-    const char* words = "Drag a strand file here, or choose one under File.\n.tfx  .hair  .ply  .gltf  .glb  .flk  .data  .bin  groom recipes";
-    const ImVec2 text = ImGui::CalcTextSize(words);
-    ImGui::SetCursorScreenPos(ImVec2(rect.x + 0.5f * (rect.width - text.x), rect.y + 0.45f * rect.height));
-    ImGui::TextDisabled("%s", words);
+    welcome(session);
   }
   ImGui::End();
+}
+
+// What there is to open, where nothing is.
+void Viewport::welcome(ViewSession& session) const {
+  const auto middle = [&](float width, float y) { ImGui::SetCursorScreenPos(ImVec2(rect_.x + std::max(0.5f * (rect_.width - width), 8.0f), y)); };
+  const float line = ImGui::GetFrameHeightWithSpacing();
+  float y = rect_.y + 0.3f * rect_.height;
+  for (const char* words : {"Drag a strand file here", ".tfx  .hair  .ply  .gltf  .glb  .flk  .data  .bin  .json"}) {
+    middle(ImGui::CalcTextSize(words).x, y);
+    ImGui::TextDisabled("%s", words);
+    y += line;
+  }
+  const ui::Scope scope("Welcome");
+  const auto wide = [](const std::string& label) { return ImGui::CalcTextSize(label.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x; };
+  middle(wide("Open a file..."), y);
+  if (ui::button("Open a file...", "Ctrl O")) {
+    session.requests.open_file = true;
+  }
+  y += 1.5f * line;
+  const std::vector<std::string> grooms = groomNames();
+  if (!grooms.empty()) {
+    middle(ImGui::CalcTextSize("or a groom that comes with Forelock").x, y);
+    ImGui::TextDisabled("or a groom that comes with Forelock");
+    y += line;
+  }
+  for (const std::string& name : grooms) {
+    middle(wide(name), y);
+    if (ui::button(name.c_str(), "Grown when it is opened, in seconds")) {
+      session.requests.open = sceneOf(session, "groom:" + name, false);
+    }
+    y += line;
+  }
+}
+
+// What the picture is of, along its lower edge.
+void Viewport::drawCaptions(ViewSession& session) const {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float y = rect_.y + rect_.height - ImGui::GetFontSize() * 1.6f;
+  const ImU32 color = IM_COL32(235, 225, 200, 255);
+  const bool compares = session.compare != Compare::none && session.shaded();
+  if (compares) {
+    Scene second;
+    applyMethod(session.second, second);
+    const std::string left = methodText(session.scene), right = methodText(second);
+    if (session.compare == Compare::split) {
+      const float x = rect_.x + session.divider * rect_.width;
+      draw->AddText(ImVec2(x - ImGui::CalcTextSize(left.c_str()).x - 8.0f, y), color, left.c_str());
+      draw->AddText(ImVec2(x + 8.0f, y), color, right.c_str());
+    } else {
+      char gain[32];
+      std::snprintf(gain, sizeof gain, "%.3g", static_cast<double>(session.gain));
+      const std::string words = "difference of " + left + " and " + right + ", times " + gain;
+      draw->AddText(ImVec2(rect_.x + 8.0f, y), color, words.c_str());
+    }
+  } else if (!session.used_mouse && session.stage()->legend.title.empty()) {
+    draw->AddText(ImVec2(rect_.x + 8.0f, y), IM_COL32(170, 170, 175, 255), "drag: orbit   right drag: pan   wheel: zoom   click: pick a strand   F: frame   F1: keys");
+  }
 }
 
 void Viewport::mouse(ViewSession& session, ViewLayers& layers) {
@@ -103,6 +150,7 @@ void Viewport::mouse(ViewSession& session, ViewLayers& layers) {
   const bool click_yet = moved_ < kClickPx && drag_ != Drag::divider;
   if (!click_yet && (dx != 0.0 || dy != 0.0)) {
     session.approach_to.reset();
+    session.used_mouse = true;
     if (drag_ == Drag::turn) {
       session.orbit.turn(dx, dy, static_cast<double>(rect_.height));
     } else if (drag_ == Drag::pan) {

@@ -23,6 +23,8 @@ private:
   void mouse(ViewSession& session, ViewLayers& layers);
   void pick(ViewSession& session, ViewLayers& layers, bool go);
   void drawSelection(const ViewSession& session) const;
+  void welcome(ViewSession& session) const;
+  void drawCaptions(ViewSession& session) const;
   void drawLegend(const Legend& legend) const;
   void drawCount(const ViewSession& session, ViewLayers& layers);
 

@@ -284,15 +284,19 @@ void Test::person(Desktop& desktop) {
   seen = now;
 
   step("a drag and keys quicker than a frame");
+  view.process().freeze(true);
   desktop.moveTo(window, 500, 400);
   desktop.button(1, true);
   desktop.moveTo(window, 560, 400);
   desktop.button(1, false);
+  view.process().freeze(false);
   now = look("a turned picture", changedFrom(seen, 3000));
   check(countPixels(now, kMiddle, selected) > 20, "a quick drag was taken for a click");
+  view.process().freeze(true);
   desktop.type(XK_F1);
   desktop.type(XK_Escape);
   desktop.type(XK_1);
+  view.process().freeze(false);
   copies("the method of a quick key", "\"core_tail\"");
   seen = look("nothing is selected", [&](const Pixels& p) { return countPixels(p, kMiddle, selected) == 0; });
 

@@ -62,6 +62,8 @@ void Process::kill() {
   }
 }
 
+void Process::freeze(bool on) { ::kill(pid_, on ? SIGSTOP : SIGCONT); }
+
 double Process::cpu_s() const {
   std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
   std::string text((std::istreambuf_iterator<char>(file)), {});

@@ -27,6 +27,7 @@ public:
   bool bySignal() const;
   int exitStatus() const;           // -1: by a signal
   void kill();                      // at once, and waits
+  void freeze(bool on);             // it does nothing meanwhile, as in a frame that takes long
   double cpu_s() const;             // user and system time of all its threads so far
   std::string said() const;         // its log
 

@@ -27,14 +27,22 @@ std::string shellQuoted(const std::string& text) {
   return quoted + "'";
 }
 
-std::string commandLine(const Scene& scene, const std::string& out) {
-  Scene placed = scene;
-  for (SceneAsset& asset : placed.assets) {
+Scene withAbsolutePaths(const Scene& scene) {
+  Scene anywhere = scene;
+  for (SceneAsset& asset : anywhere.assets) {
     if (asset.source.rfind("groom:", 0) != 0) {
       makeAbsolute(asset.source);
     }
     makeAbsolute(asset.root_image);
   }
+  for (SceneMesh& mesh : anywhere.meshes) {
+    makeAbsolute(mesh.source);
+  }
+  return anywhere;
+}
+
+std::string commandLine(const Scene& scene, const std::string& out) {
+  Scene placed = withAbsolutePaths(scene);
   if (placed.camera.placed) {
     placed.camera.name.clear();  // it would take the place's place
   }

@@ -86,7 +86,7 @@ void lightPanel(ViewSession& session) {
   ui::checkbox("Auto exposure", session.auto_exposure, "Chosen anew whenever lights or materials change; else what they change is seen as it is");
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const std::string name = "Light " + std::to_string(i + 1);
-    const bool open = ImGui::TreeNodeEx(name.c_str(), i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0, "%s, %s", name.c_str(), roleOf(scene.lights[i]));
+    const bool open = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_DefaultOpen, "%s, %s", name.c_str(), roleOf(scene.lights[i]));
     ui::noteItem(name, open);
     if (open) {
       const ui::Scope inside(name);

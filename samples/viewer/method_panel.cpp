@@ -11,9 +11,9 @@ namespace {
 
 void methodWidgets(MethodChoice& choice, bool graphics) {
   ui::choose("Method", choice.method, methodNames(),
-             "core_tail: the nearest k of a pixel in full quality, the rest cheaply\nexact: all in full quality and in order\nforward: all in full "
-             "quality, shaded before they are sorted\ncore_only: as core_tail, but the rest only hides\nall_low: all of it cheaply\nhard: the nearest "
-             "alone, opaque: no lists");
+             "Which fragments of a pixel are shaded fully, and in what order. Hold the mouse over one in the list.",
+             {"The default. The nearest k of a pixel in full quality and in order, the rest cheaply", "All in full quality and in order: what others are measured against",
+              "All in full quality, shaded before they are sorted", "As core_tail, but the rest only hides", "All of it cheaply, in order", "The nearest alone, opaque: no lists, the quickest"});
   if (choice.hasCore()) {
     uint32_t k = choice.k == FLK_K_NONE ? 0 : choice.k == 0 ? 8 : choice.k;
     if (ui::slide("k", k, 0, 32, "Fragments of a pixel that are shaded fully: 25 shadow map reads and two highlights")) {

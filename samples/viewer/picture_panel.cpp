@@ -10,7 +10,8 @@ void picturePanel(ViewSession& session) {
     return;
   }
   Requests& ask = session.requests;
-  ui::faintText(std::to_string(session.scene.width) + " x " + std::to_string(session.scene.height) + " pixels, as large as in the window");
+  ui::faintText(std::to_string(session.scene.width) + " x " + std::to_string(session.scene.height) + " pixels, as large as in the window" +
+                (session.scene.background ? "" : ", transparent background"));
   if (ui::button("Save picture...", "As it is seen, without panels: .png or .exr (Ctrl S)", session.loaded())) {
     ask.save_picture = true;
   }

@@ -99,6 +99,7 @@ void eachKey(Keys& keys, ViewSettings& s) {
   keys.number("moving_budget_ms", s.moving_budget_ms, 1.0, 1000.0);
   keys.flag("adapt", s.adapt);
   keys.text("last_folder", s.last_folder);
+  keys.text("last_scene", s.last_scene);
 }
 
 // Names that are not UTF-8 cannot be in JSON: they are not remembered.

@@ -15,6 +15,7 @@ struct ViewSettings {
   double moving_budget_ms = 50.0;  // [1, 1000] of a frame while something moves
   bool adapt = true;               // the resolution follows the budget
   std::string last_folder;         // of the file dialogue; empty: none
+  std::string last_scene;          // that was open at the end, as JSON; empty: none
   std::string unknown;             // JSON of keys that are not known here, written back as they were; empty: none
   bool leave_file = false;         // the file is of a newer forelock, or could not be read or kept: it is not written over
 };

@@ -43,14 +43,14 @@ void findingsPanel(ViewSession& session) {
       const bool chosen = session.selection.asset == a && session.selection.label == label;
       const bool pressed = ui::selectable(label, chosen);
       ImGui::PopStyleColor();
-      ui::tip(found.finding.text.c_str());
+      ui::tip("Selects and frames the strands that it speaks of");
       if (pressed) {
         session.selection = {a, found.strands, label};
         session.picked.reset();
         session.requests.frame_selection = !found.strands.empty();
       }
+      ui::faintText(found.finding.text);
       if (chosen) {
-        ui::faintText(found.finding.text);
         if (found.reach == FindingReach::dropped) {
           ui::faintText("They were left out while loading.");
         } else if (found.reach == FindingReach::file) {

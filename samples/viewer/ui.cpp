@@ -119,7 +119,8 @@ bool checkbox(const char* label, bool& value, const char* words) {
   return changed;
 }
 
-bool choose(const char* label, uint32_t& index, const std::vector<std::string>& names, const char* words) {
+bool choose(const char* label, uint32_t& index, const std::vector<std::string>& names, const char* words,
+            const std::vector<const char*>& line_words) {
   labelWidth();
   const char* shown = index < names.size() ? names[index].c_str() : "?";
   const bool open = ImGui::BeginCombo(label, shown, ImGuiComboFlags_HeightLarge);
@@ -136,6 +137,7 @@ bool choose(const char* label, uint32_t& index, const std::vector<std::string>& 
           changed = i != index;
           index = i;
         }
+        tip(i < line_words.size() ? line_words[i] : nullptr);
       }
     }
     ImGui::EndCombo();

@@ -46,7 +46,8 @@ public:
 bool button(const char* label, const char* tip, bool enabled = true);
 bool smallButton(const char* label, const char* tip);
 bool checkbox(const char* label, bool& value, const char* tip);
-bool choose(const char* label, uint32_t& index, const std::vector<std::string>& names, const char* tip);
+bool choose(const char* label, uint32_t& index, const std::vector<std::string>& names, const char* tip,
+            const std::vector<const char*>& tips = {});  // of the list, of its lines
 bool slide(const char* label, double& value, double low, double high, const char* tip, const char* format = "%.3g", bool logarithmic = false);
 bool slide(const char* label, float& value, double low, double high, const char* tip, const char* format = "%.3g", bool logarithmic = false);
 bool slide(const char* label, uint32_t& value, uint32_t low, uint32_t high, const char* tip);

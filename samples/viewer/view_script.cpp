@@ -110,6 +110,7 @@ void ViewScript::walkNext() {
   const auto menu = std::find_if(ui::items().begin(), ui::items().end(), [&](const ui::Item& item) { return item.menu && item.name == walk_only_; });
   if (menu != ui::items().end() && !menu->open) {
     clickItem(walk_only_);
+    pending_.insert(pending_.end(), 3, held_);  // until it is open
     return;
   }
   for (const ui::Item& item : ui::items()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer_app.h"
 
+#include "command_line.h"
 #include "ui.h"
 
 #define GLFW_INCLUDE_NONE
@@ -84,6 +85,7 @@ void Viewer::frame() {
   const bool turntable = turntable_views_ > 0 && !turntable_path_.empty();
   session_.busy = loader_.busy() ? "Opening " + loader_.label() : ready_ ? "Drawing the first picture" : turntable ? "Drawing the turntable" : "";
   session_.busy_share = loader_.busy() ? loader_.share() : ready_ ? -1.0f : static_cast<float>(turntable_at_) / static_cast<float>(std::max(turntable_views_, 1u));
+  session_.reduced = sounding_ || (session_.loaded() && !drawn_full_);
   session_.can_cancel = turntable && !loader_.busy();
   const float scale = session_.settings.ui_scale > 0.0f ? session_.settings.ui_scale : window_->contentScale();
   if (scale != ui_scale_) {
@@ -230,8 +232,11 @@ int Viewer::finish() {
       session_.settings.window_height = height;
     }
     try {
+      if (session_.loaded()) {
+        session_.settings.last_scene = writeScene(withAbsolutePaths(session_.currentScene()));
+      }
       saveSettings(session_.settings_path, session_.settings);
-    } catch (const AssetError& error) {
+    } catch (const std::exception& error) {
       std::fprintf(stderr, "forelock: %s\n", error.what());
     }
   }

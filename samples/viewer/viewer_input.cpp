@@ -217,7 +217,7 @@ void Viewer::drawUi() {
     if (facts) {
       char text[128];
       std::snprintf(text, sizeof text, "%s   %.1f ms%s", methodText(session_.scene).c_str(), facts->statistics.milliseconds_frame,
-                    sounding_ || !drawn_full_ ? "   (reduced, the full picture follows)" : "");
+                    session_.reduced ? "   (reduced)" : "");
       const float at = whole.x - ImGui::CalcTextSize(text).x - 12.0f;
       if (at > ImGui::GetItemRectMax().x + ImGui::GetFontSize()) {
         ImGui::SameLine(at);

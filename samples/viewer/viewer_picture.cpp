@@ -192,7 +192,7 @@ bool Viewer::planPicture(bool& planned) {
     const auto scaled = [&](uint32_t side) { return std::max(16u, static_cast<uint32_t>(std::lround(side * session_.share))); };
     request.width = cheap ? std::min(scaled(scene.width), scene.width) : scene.width;
     request.height = cheap ? std::min(scaled(scene.height), scene.height) : scene.height;
-    request.few_strands = cheap && cheap_share_ < 0.7 && device_->layers->hasFewStrands();
+    request.few_strands = cheap && cheap_share_ < 0.7 && scene.display != FLK_DISPLAY_LAYERS && device_->layers->hasFewStrands();
     session_.few_strands = request.few_strands;
     request.methods[kLayerFirst] = methodOf(scene);
     if (session_.compare != Compare::none && session_.shaded()) {

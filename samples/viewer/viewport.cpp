@@ -72,6 +72,17 @@ void Viewport::welcome(ViewSession& session) const {
   if (ui::button("Open a file...", "Ctrl O")) {
     session.requests.open_file = true;
   }
+  if (!session.settings.last_scene.empty()) {
+    y += line;
+    middle(wide("The last scene"), y);
+    if (ui::button("The last scene", "Assets, lights, materials, method and view as they were when the window was closed")) {
+      try {
+        session.requests.open = parseScene(session.settings.last_scene);
+      } catch (const std::exception& error) {
+        session.alert = error.what();
+      }
+    }
+  }
   y += 1.5f * line;
   const std::vector<std::string> grooms = groomNames();
   if (!grooms.empty()) {
@@ -93,6 +104,9 @@ void Viewport::drawCaptions(ViewSession& session) const {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float y = rect_.y + rect_.height - ImGui::GetFontSize() * 1.6f;
   const ImU32 color = IM_COL32(235, 225, 200, 255);
+  if (session.reduced) {
+    draw->AddText(ImVec2(rect_.x + 8.0f, rect_.y + 6.0f), IM_COL32(240, 220, 90, 255), "reduced; the full picture follows");
+  }
   const bool compares = session.compare != Compare::none && session.shaded();
   if (compares) {
     Scene second;
@@ -285,7 +299,8 @@ void Viewport::drawLegend(const Legend& legend) const {
 
 void Viewport::drawCount(const ViewSession& session, ViewLayers& layers) {
   if (session.scene.display != FLK_DISPLAY_LAYERS || session.scene.coloring != StrandColoring::none || !layers.drawn(kLayerFirst) ||
-      !ImGui::IsMouseHoveringRect(ImVec2(rect_.x, rect_.y), ImVec2(rect_.x + rect_.width, rect_.y + rect_.height)) || drag_ != Drag::none) {
+      !ImGui::IsMouseHoveringRect(ImVec2(rect_.x, rect_.y), ImVec2(rect_.x + rect_.width, rect_.y + rect_.height)) || drag_ != Drag::none ||
+      ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) {
     counted_x_ = -1;
     return;
   }

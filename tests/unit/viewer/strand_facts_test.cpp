@@ -50,7 +50,8 @@ TEST(StrandFacts, AreThoseOfTheStrandAlone) {
   EXPECT_EQ(lineOf(facts, "group"), "fringe");
   EXPECT_EQ(lineOf(facts, "root"), "1, 0, 0");
   EXPECT_EQ(lineOf(facts, "tip"), "3, 1, 0");
-  EXPECT_EQ(lineOf(facts, "width"), "0.08 to 0.04");
+  EXPECT_EQ(lineOf(facts, "width"), "0.04 to 0.02");
+  EXPECT_EQ(lineOf(facts, "as drawn"), "0.08 to 0.04");
   EXPECT_EQ(lineOf(facts, "root UV"), "0.25, 0.75");
   EXPECT_EQ(lineOf(facts, "colour"), "#ff0000 to #0000ff");
   EXPECT_EQ(lineOf(facts, "pinned"), "2 vertices");

@@ -304,6 +304,8 @@ TEST(CommandLine, IsTheSceneWithAbsolutePaths) {
   scene.assets[0].root_image = "maps/it's.png";
   scene.assets[1].source = "./hair/../a.tfx";
   scene.assets[1].root_image.clear();
+  scene.meshes.assign(1, SceneMesh{});
+  scene.meshes[0].source = "./hair/head.glb";
   scene.camera.placed = Camera{};
   scene.camera.name = "front";
   const std::string line = commandLine(scene, "my picture.png");
@@ -316,6 +318,7 @@ TEST(CommandLine, IsTheSceneWithAbsolutePaths) {
   const std::string here = std::filesystem::current_path().string();
   scene.assets[0].root_image = here + "/maps/it's.png";
   scene.assets[1].source = here + "/a.tfx";
+  scene.meshes[0].source = here + "/hair/head.glb";
   scene.camera.name.clear();
   expectSame(scene, back);
 }

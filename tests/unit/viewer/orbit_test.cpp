@@ -280,3 +280,25 @@ TEST(Orbit, ApproachBeginsAndEndsExactlyAndNeverTurnsBack) {
   from.azimuth = 3.0, to.azimuth = -3.0;
   EXPECT_GT(std::fabs(approach(from, to, 0.05).azimuth), 3.0) << "the short way round";
 }
+
+TEST(ViewDepth, IsTheInverseOfTheProjection) {
+  for (const bool flat : {false, true}) {
+    for (const bool reversed : {false, true}) {
+      Camera camera;
+      camera.orthographic = flat;
+      camera.reversed_depth = reversed;
+      camera.near_m = 0.02;
+      camera.far_m = 50.0;
+      float projection[16];
+      projectionMatrix(camera, 1.5, projection);
+      for (const double depth : {0.02, 0.1, 1.0, 7.0, 49.0}) {
+        const double z = static_cast<double>(projection[10]) * -depth + static_cast<double>(projection[14]);
+        const double w = flat ? 1.0 : depth;
+        // The matrix has 24 bits: of a perspective depth that is d^2 / near of the value's 2^-24, twice over.
+        const double tolerance = (flat ? 50.0 : depth * depth / 0.02) * 0x1p-22 + 1e-9;
+        EXPECT_NEAR(viewDepth(camera, z / w), depth, tolerance) << flat << reversed;
+      }
+      EXPECT_TRUE(std::isinf(viewDepth(camera, reversed ? 0.0 : 1.0)));
+    }
+  }
+}

@@ -13,6 +13,7 @@ namespace {
 
 constexpr uint64_t kPoolBudget = uint64_t{1} << 30;  // as `forelock preview`: the same picture where lists are long
 constexpr uint32_t kSoundingSize = 320;              // likewise
+constexpr uint32_t kCompileSize = 16;
 constexpr uint32_t kCheapShadow = 512;  // taps and methods stay: others are other pipelines, which take time to compile
 
 constexpr VkImageUsageFlags kHairUsage =
@@ -154,7 +155,7 @@ void ViewLayers::ensureView(Slot& slot) {
   }
 }
 
-double ViewLayers::chooseExposure(const Camera& camera) {
+LayerRequest ViewLayers::soundingRequest(const Camera& camera) const {
   const Scene& scene = stage_->scene;
   const uint32_t longer = std::max(scene.width, scene.height);
   LayerRequest request;
@@ -166,6 +167,11 @@ double ViewLayers::chooseExposure(const Camera& camera) {
   request.height = reduced(scene.height);
   request.methods[kLayerFirst] = methodOf(scene);
   request.meshes = false;  // an exposure that followed them would change as they are turned on and off
+  return request;
+}
+
+double ViewLayers::chooseExposure(const Camera& camera) {
+  const LayerRequest request = soundingRequest(camera);
   for (int attempt = 0; attempt < 4; ++attempt) {
     plan(request);
     if (!host_.submit([&](VkCommandBuffer cmd) { record(cmd); })) {
@@ -178,21 +184,24 @@ double ViewLayers::chooseExposure(const Camera& camera) {
   return exposureOf(readHair(kLayerFirst), *stage_);
 }
 
-void ViewLayers::plan(const LayerRequest& request) {
-  last_ = request;
-  Stage cheap_stage;  // of a scene alone: what a frame reads of a stage besides its hairs
+// A frame of a request without target and method. What it points to lives in it.
+struct ViewLayers::Frame {
+  Stage cheap;  // of a scene alone: what a frame reads of a stage besides its hairs
+  std::optional<StagedFrame> staged;
+};
+
+void ViewLayers::stageFrame(const LayerRequest& request, Frame& frame) {
   const Stage* stage = stage_;
   if (request.cheap) {
-    cheap_stage.scene = stage_->scene;
-    for (SceneLight& light : cheap_stage.scene.lights) {
+    frame.cheap.scene = stage_->scene;
+    for (SceneLight& light : frame.cheap.scene.lights) {
       light.shadow_size = std::min(light.shadow_size, kCheapShadow);
     }
-    stage = &cheap_stage;
+    stage = &frame.cheap;
   }
   const std::vector<Hair>& hairs = request.few_strands && few_.size() == hairs_.size() ? few_ : hairs_;
-  StagedFrame staged(*stage, request.camera, hairs, request.exposure, request.width, request.height);
-  opaque_planned_ = request.meshes && !opaque_->empty();
-  if (opaque_planned_) {
+  StagedFrame& staged = frame.staged.emplace(*stage, request.camera, hairs, request.exposure, request.width, request.height);
+  if (request.meshes && !opaque_->empty()) {
     OpaqueLook look = opaqueLook(*stage_, request.camera);
     for (OpaqueLight& light : look.lights) {
       light.casts_shadow = light.casts_shadow && !request.cheap;  // meshes' shadows are a map of four million texels a light
@@ -201,9 +210,59 @@ void ViewLayers::plan(const LayerRequest& request) {
     if (!opaque_drawn_->prepare(request.camera, stage->aspect(), request.width, request.height, look)) {
       check(FLK_ERROR_OUT_OF_DEVICE_MEMORY, "making an image");
     }
+    opaque_drawn_->fillFrame(staged.frame, staged.lights);
+  }
+  staged.frame.count_work = request.count_work ? 1 : 0;
+}
+
+void ViewLayers::planSlot(Slot& slot, FlkFrame frame, const MethodChoice& method, uint32_t width, uint32_t height) {
+  ensureView(slot);
+  ensureImage(slot.hair, width, height, kHairUsage);
+  applyMethod(method, frame);
+  frame.frame_number = slot.frame + 1;
+  frame.completed_frame = slot.frame;
+  frame.target = {slot.hair.image,
+                  slot.hair.view,
+                  slot.hair.format,
+                  VK_SAMPLE_COUNT_1_BIT,
+                  slot.hair.range,
+                  width,
+                  height,
+                  {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                  {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}};
+  check(flkPlanFrame(slot.view, &frame, &slot.plan), "planning a frame");
+  ++slot.frame;
+}
+
+void ViewLayers::compile(const LayerRequest& request) {
+  LayerRequest small = request;  // pipelines do not depend on sizes
+  small.width = small.height = kCompileSize;
+  Frame frame;
+  stageFrame(small, frame);
+  for (const std::optional<MethodChoice>& method : small.methods) {
+    if (method) {
+      Slot slot;
+      const auto drop = [&] { host_.resources().destroy(slot.hair); };
+      try {
+        planSlot(slot, frame.staged->frame, *method, small.width, small.height);
+      } catch (...) {
+        drop();
+        throw;
+      }
+      slot.view = {};  // before its target
+      drop();
+    }
+  }
+}
+
+void ViewLayers::plan(const LayerRequest& request) {
+  last_ = request;
+  Frame frame;
+  stageFrame(request, frame);
+  opaque_planned_ = request.meshes && !opaque_->empty();
+  if (opaque_planned_) {
     ensureImage(opaque_color_, request.width, request.height,
                 VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    opaque_drawn_->fillFrame(staged.frame, staged.lights);
   }
   for (uint32_t i = 0; i < kLayerCount; ++i) {
     Slot& slot = slots_[i];
@@ -212,24 +271,7 @@ void ViewLayers::plan(const LayerRequest& request) {
       slot.valid = false;
       continue;
     }
-    ensureView(slot);
-    ensureImage(slot.hair, request.width, request.height, kHairUsage);
-    FlkFrame frame = staged.frame;
-    applyMethod(*request.methods[i], frame);
-    frame.count_work = request.count_work ? 1 : 0;
-    frame.frame_number = slot.frame + 1;
-    frame.completed_frame = slot.frame;
-    frame.target = {slot.hair.image,
-                    slot.hair.view,
-                    slot.hair.format,
-                    VK_SAMPLE_COUNT_1_BIT,
-                    slot.hair.range,
-                    request.width,
-                    request.height,
-                    {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
-                    {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}};
-    check(flkPlanFrame(slot.view, &frame, &slot.plan), "planning a frame");
-    ++slot.frame;
+    planSlot(slot, frame.staged->frame, *request.methods[i], request.width, request.height);
     slot.planned = true;
   }
 }

@@ -69,7 +69,12 @@ public:
   // Hair `index` anew: follow strands, root image or colours are others.
   void renewHair(size_t index);
 
-  // The exposure that `forelock preview` chooses.
+  // Makes the pipelines that such a picture needs and that are not there yet, which takes seconds where shaders are compiled slowly. May
+  // run in a thread of its own: meanwhile what was drawn can be shown, and nothing else here be called. Throws AssetError.
+  void compile(const LayerRequest& request);
+
+  // What tells the exposure that `forelock preview` chooses, and that exposure.
+  LayerRequest soundingRequest(const Camera& camera) const;
   double chooseExposure(const Camera& camera);
 
   // Before record, which goes into one submission with all that is planned. Throws AssetError.
@@ -109,6 +114,9 @@ private:
   void ensureView(Slot& slot);
   Hair upload(const FlkHairDesc& desc, const double world_from_hair[16]);
   void describe(Slot& slot);
+  struct Frame;
+  void stageFrame(const LayerRequest& request, Frame& frame);
+  void planSlot(Slot& slot, FlkFrame frame, const MethodChoice& method, uint32_t width, uint32_t height);
 
   HeadlessHost& host_;
   const ViewGpu& gpu_;

@@ -39,11 +39,15 @@ bool Viewer::makeDevice(std::string& error) {
     device_->layers->setStage(*session_.stage());
   }
   drawn_key_.clear();
+  compiled_keys_.clear();
   return true;
 }
 
+bool Viewer::compiling() const { return compiling_.valid() && compiling_.wait_for(std::chrono::seconds(0)) != std::future_status::ready; }
+
 void Viewer::loseDevice(const std::string& why) {
   const auto now = Clock::now();
+  compiling_ = {};  // waits for it
   if (device_) {
     const auto& messages = device_->screen->host().validationMessages();
     validation_.insert(validation_.end(), messages.begin(), messages.end());
@@ -61,7 +65,7 @@ void Viewer::loseDevice(const std::string& why) {
 }
 
 bool Viewer::settled() const {
-  return !loader_.busy() && !ready_ && !opening_ && !loader_.studying() && !sounding_ && (!session_.loaded() || (drawn_full_ && !again_)) &&
+  return !loader_.busy() && !ready_ && !compiling_.valid() && !opening_ && !loader_.studying() && !sounding_ && (!session_.loaded() || (drawn_full_ && !again_)) &&
          !session_.approach_to && turntable_views_ == 0;
 }
 
@@ -72,26 +76,29 @@ void Viewer::frame() {
   if (!first_picture_ && (opening_ || session_.loaded())) {
     held_ms_ = std::max(held_ms_, 1e3 * dt);
   }
-  const bool at_hand = ready_ != nullptr;  // told by the last frame: what follows takes a while
-  if (at_hand) {
-    adopt(std::exchange(ready_, nullptr));
-  } else {
-    ready_ = loader_.take();
+  if (!compiling()) {
+    if (ready_) {
+      adopt(std::exchange(ready_, nullptr));
+    } else {
+      ready_ = loader_.take();  // told by this frame: what follows takes a while
+    }
+    if (std::unique_ptr<LoadedExtras> extras = loader_.takeExtras()) {
+      adoptExtras(std::move(extras));
+    }
+    takeDropped();
   }
-  if (std::unique_ptr<LoadedExtras> extras = loader_.takeExtras()) {
-    adoptExtras(std::move(extras));
-  }
-  takeDropped();
   const bool turntable = turntable_views_ > 0 && !turntable_path_.empty();
-  session_.busy = loader_.busy() ? "Opening " + loader_.label() : ready_ ? "Drawing the first picture" : turntable ? "Drawing the turntable" : "";
-  session_.busy_share = loader_.busy() ? loader_.share() : ready_ ? -1.0f : static_cast<float>(turntable_at_) / static_cast<float>(std::max(turntable_views_, 1u));
+  session_.busy = loader_.busy() ? "Opening " + loader_.label() : ready_ ? "Drawing the first picture" : compiling() ? "Compiling shaders" : turntable ? "Drawing the turntable" : "";
+  session_.busy_share = loader_.busy() ? loader_.share() : ready_ || compiling() ? -1.0f : static_cast<float>(turntable_at_) / static_cast<float>(std::max(turntable_views_, 1u));
   session_.reduced = sounding_ || (session_.loaded() && !drawn_full_);
-  session_.can_cancel = turntable && !loader_.busy();
+  session_.can_cancel = turntable && !loader_.busy() && !compiling();
   const float scale = session_.settings.ui_scale > 0.0f ? session_.settings.ui_scale : window_->contentScale();
   if (scale != ui_scale_) {
     ui_scale_ = scale;
     device_->screen->setUiScale(scale);
   }
+  const bool busy = compiling();
+  session_.compiling = busy;
   device_->screen->setVsync(session_.settings.vsync && options_.script.empty());
   device_->screen->beginUi();
   script_.drive(settled());
@@ -99,13 +106,15 @@ void Viewer::frame() {
   ImGui::NewFrame();
   drawUi();
   ImGui::Render();
-  takeScript();
-  takeRequests();
-  stepTurntable();
-  moveCamera(dt);
-  applyEdits();
   bool planned = false;
-  planPicture(planned);
+  if (!busy) {
+    takeScript();
+    takeRequests();
+    stepTurntable();
+    moveCamera(dt);
+    applyEdits();
+    planPicture(planned);
+  }
   const ViewportRect rect = viewport_.pixels();
   const bool has_picture = device_->layers->drawn(kLayerFirst) || planned;
   const bool drawn = !minimised_ && device_->screen->draw(
@@ -147,6 +156,7 @@ void Viewer::frame() {
   }
   if (!first_picture_ && !opening_ && (planned || sounding_)) {
     first_picture_ = true;
+    held_ms_ = std::max(held_ms_, 1e3 * seconds(Clock::now() - begin));
     char text[64];
     std::snprintf(text, sizeof text, ", first picture after %.2f s", seconds(Clock::now() - opened_));
     opened_text_ += text;
@@ -245,6 +255,7 @@ int Viewer::finish() {
     validation_.insert(validation_.end(), messages.begin(), messages.end());
   }
   loader_.stopStudy();
+  compiling_ = {};
   device_.reset();
   for (const std::string& message : validation_) {
     std::fprintf(stderr, "forelock: validation: %s\n", message.c_str());

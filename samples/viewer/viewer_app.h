@@ -13,7 +13,9 @@
 #include "viewer.h"
 #include "viewport.h"
 
+#include <future>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -57,6 +59,8 @@ private:
   void drawUi();
   void moveCamera(double dt);
   bool planPicture(bool& planned);
+  bool compiled(const LayerRequest& request);
+  bool compiling() const;
   void afterPicture(double ms);
   void savePictureTo(const std::string& path, LayerIndex layer = kLayerFirst);
   void saveSceneTo(const std::string& path);
@@ -78,6 +82,10 @@ private:
   ViewScript script_;
   FileBrowser browser_;
   Viewport viewport_;
+
+  std::future<void> compiling_;  // of pipelines; while it runs the device's layers are left alone
+  std::set<std::string> compiled_keys_;  // of pictures whose pipelines are there
+  std::string compiling_key_;
 
   Scene applied_;              // that the stage has
   Orbit home_;

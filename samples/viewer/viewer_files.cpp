@@ -161,6 +161,7 @@ void Viewer::adopt(std::unique_ptr<LoadedStage> loaded) {
   session_.approach_to.reset();
   applied_ = session_.scene;
   drawn_key_.clear();
+  compiled_keys_.clear();  // other assets may need others
   last_change_ = Clock::now();
   std::string names;
   for (const SceneAsset& asset : session_.scene.assets) {

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace forelock::samples {
 
@@ -13,6 +15,38 @@ namespace {
 
 constexpr double kStillAfter_s = 0.2;      // without a change the picture is drawn in full
 constexpr double kLeastShare = 0.2;
+constexpr int kQuick_ms = 20;              // pipelines that are there sooner are waited for
+
+// What of a picture may need other pipelines. What is missing here is made while the window waits.
+std::string pipelineKey(const Scene& scene, const LayerRequest& request) {
+  Scene of;
+  of.display = scene.display;
+  of.coloring = scene.coloring;
+  of.head = scene.head;
+  of.sky = scene.sky ? std::optional<SceneSky>(SceneSky{}) : std::nullopt;
+  of.lights.clear();
+  for (const SceneLight& light : scene.lights) {
+    SceneLight& kept = of.lights.emplace_back();
+    kept.kind = light.kind;
+    kept.shadow = light.shadow;
+    kept.shadow_cover = light.shadow_cover;
+  }
+  std::string key = writeScene(of, true) + (scene.meshes.empty() ? "" : "m");
+  for (const SceneAsset& asset : scene.assets) {
+    key += asset.ignore_colors ? "c" : "-";
+    key += asset.material.tip_blend > 0.0f ? "t" : "-";
+    key += asset.follow.count > 0 ? "f" : "-";
+    key += asset.root_image.empty() ? "-" : asset.source + asset.root_image;
+  }
+  for (const std::optional<MethodChoice>& method : request.methods) {
+    Scene chosen;
+    if (method) {
+      applyMethod(*method, chosen);
+      key += writeScene(chosen, true);
+    }
+  }
+  return key + (request.meshes ? "m" : "-") + (request.cheap ? "q" : "-") + (request.count_work ? "w" : "-");
+}
 
 // What of a scene needs hair to be uploaded anew.
 bool sameHair(const SceneAsset& a, const SceneAsset& b) {
@@ -138,6 +172,27 @@ void Viewer::moveCamera(double dt) {
   }
 }
 
+// Whether a picture can be planned without making pipelines. Else they are made beside the window, which goes on.
+bool Viewer::compiled(const LayerRequest& request) {
+  const std::string key = pipelineKey(session_.scene, request);
+  if (compiling_.valid()) {  // and done
+    std::exchange(compiling_, {}).get();  // what was wrong is told as of planning
+    compiled_keys_.insert(compiling_key_);
+  }
+  if (compiled_keys_.count(key) > 0) {
+    return true;
+  }
+  compiling_key_ = key;
+  compiling_ = std::async(std::launch::async, [this, request] {
+    device_->layers->compile(request);
+    ViewWindow::wake();
+  });
+  if (compiling_.wait_for(std::chrono::milliseconds(kQuick_ms)) != std::future_status::ready) {
+    return false;
+  }
+  return compiled(request);
+}
+
 // Plans the layers that the window needs anew. False: failed, and said so.
 bool Viewer::planPicture(bool& planned) {
   planned = false;
@@ -172,6 +227,9 @@ bool Viewer::planPicture(bool& planned) {
   }
   try {
     if (scene.exposure <= 0.0 && session_.shaded()) {
+      if (!compiled(device_->layers->soundingRequest(camera))) {
+        return true;
+      }
       scene.exposure = device_->layers->chooseExposure(camera);
       applied_.exposure = scene.exposure;
       session_.plain->scene.exposure = scene.exposure;
@@ -202,6 +260,9 @@ bool Viewer::planPicture(bool& planned) {
       MethodChoice exact{FLK_METHOD_EXACT};
       exact.capture = scene.capture;
       request.methods[kLayerExact] = exact;
+    }
+    if (!compiled(request)) {
+      return true;
     }
     device_->layers->plan(request);
     const VkImageView first = device_->layers->hairImage(kLayerFirst).view;

@@ -48,7 +48,9 @@ void Viewport::draw(ViewSession& session, ViewLayers& layers, const ViewportRect
     mouse(session, layers);
     drawSelection(session);
     drawLegend(session.stage()->legend);
-    drawCount(session, layers);
+    if (!session.compiling) {
+      drawCount(session, layers);
+    }
     drawCaptions(session);
   } else if (session.busy.empty()) {
     welcome(session);
@@ -182,6 +184,9 @@ void Viewport::mouse(ViewSession& session, ViewLayers& layers) {
 }
 
 void Viewport::pick(ViewSession& session, ViewLayers& layers, bool go) {
+  if (session.compiling) {
+    return;
+  }
   const ImVec2 at = ImGui::GetIO().MousePos;
   uint32_t width = 0, height = 0;
   size(width, height);

@@ -32,7 +32,7 @@ void timeGraph(const TimeHistory& times) {
   ui::noteItem("Times");
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled(low, ImVec2(low.x + size.x, low.y + size.y), IM_COL32(14, 15, 18, 255));
-  const double most = times.percentile(TimeHistory::kTotal, 98.0);
+  const double most = times.percentile(TimeHistory::kTotal, 100.0);
   if (most <= 0.0) {
     return;
   }
@@ -89,7 +89,7 @@ void costPanel(ViewSession& session, const LayerFacts* facts) {
   }
   timeGraph(session.times);
   if (ImGui::BeginTable("stages", 3, ImGuiTableFlags_SizingStretchSame)) {
-    for (const char* name : {"GPU stage", "last", "median of 30"}) {
+    for (const char* name : {"GPU stage", "last", "median"}) {
       ImGui::TableNextColumn();
       ImGui::TextDisabled("%s", name);
     }

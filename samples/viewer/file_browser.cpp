@@ -148,6 +148,9 @@ std::optional<std::string> FileBrowser::draw() {
   bool confirm = false;
   if (saving_) {
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.7f);
+    if (ImGui::IsWindowAppearing()) {
+      ImGui::SetKeyboardFocusHere();
+    }
     const bool entered = ui::nameInput("Name", name_, "Of the file to write");
     confirm = ask_ && overwrite_ == path && fs::exists(path, error);
     if (confirm) {  // Cancel is where Save was, so that a second click does no harm

@@ -53,7 +53,7 @@ bool lightWidgets(SceneLight& light) {
   }
   ui::slide("Intensity", light.intensity, 0.0, 10.0, "Times the exposure; of a lamp what arrives at one metre", "%.3g");
   colorOf("Colour", light.color, "Of the light");
-  ui::checkbox("Hair casts shadows", light.shadow, "Hair takes light from the hair and the head behind it. Costs one shadow map; of a lamp amid the hair six");
+  ui::checkbox("Casts shadows", light.shadow, "Hair, head and meshes take light from what lies behind them. Costs one shadow map; of a lamp amid the hair six");
   if (light.shadow) {
     const std::vector<uint32_t> sizes{256, 512, 1024, 2048, 4096, 8192};
     uint32_t index = 0;
@@ -76,7 +76,7 @@ bool lightWidgets(SceneLight& light) {
 void lightPanel(ViewSession& session) {
   const ui::Scope scope("Lights");
   Scene& scene = session.scene;
-  if (ui::slide("Exposure", scene.exposure, 1e-2, 1e3, "What all light is multiplied by", "%.4g", true)) {
+  if (ui::slide("Exposure", scene.exposure, 1e-2, 1e3, "What light on hair is multiplied by. Head and meshes have their own, by which they stay as bright as skin", "%.4g", true)) {
     session.auto_exposure = false;
   }
   if (ui::button("Expose now", "Chooses the exposure for the picture as it is, as for the first one")) {

@@ -33,7 +33,7 @@ void picturePanel(ViewSession& session) {
   static const std::vector<std::string> kNames{"8 views", "12 views", "24 views", "36 views", "72 views"};
   ui::choose("Turntable", session.turntable_choice, kNames, "Pictures evenly around what is looked at");
   ImGui::SameLine();
-  if (ui::smallButton("Save...", "A picture for each view: NAME-000.png and on")) {
+  if (ui::button("Save views...", "A picture for each view: NAME-000.png and on", session.loaded())) {
     ask.turntable = kViews[session.turntable_choice];
   }
 }

@@ -110,8 +110,8 @@ StrandFacts strandFacts(const OpenedAsset& opened, uint32_t strand, const Strand
   facts.lines.emplace_back("vertices", std::to_string(facts.vertices));
   facts.lines.emplace_back("length", number(facts.length));
   facts.lines.emplace_back("root to tip", number(facts.root_to_tip));
-  facts.lines.emplace_back("segments", number(facts.min_segment) + " to " + number(facts.max_segment) + ", mean " +
-                                           number(facts.mean_segment));
+  facts.lines.emplace_back("segments", number(facts.min_segment) + " to " + number(facts.max_segment));
+  facts.lines.emplace_back("mean segment", number(facts.mean_segment));
   facts.lines.emplace_back("curvature", "up to " + number(facts.max_curvature) + " rad per unit, " + number(facts.max_turn_deg) +
                                             " degrees in a vertex");
   sayAttributes(one, info, options.width_scale, facts);

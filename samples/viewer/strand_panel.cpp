@@ -39,7 +39,7 @@ void findingsPanel(ViewSession& session) {
       any = true;
       ImGui::PushID(static_cast<int>(i));
       ImGui::PushStyleColor(ImGuiCol_Text, severityColor(found.finding.severity));
-      const std::string label = (found.finding.code.empty() ? found.finding.text : found.finding.code) + ", " + found.label;
+      const std::string label = found.finding.code.empty() ? found.label : found.finding.code;
       const bool chosen = session.selection.asset == a && session.selection.label == label;
       const bool pressed = ui::selectable(label, chosen);
       ImGui::PopStyleColor();

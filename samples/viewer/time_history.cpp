@@ -13,10 +13,13 @@ void TimeHistory::add(const FrameTimes& times) {
 
 const FrameTimes& TimeHistory::at(size_t ago) const { return ring_[(next_ + kFrames - 1 - ago % kFrames) % kFrames]; }
 
-double TimeHistory::percentile(uint32_t stage, double percent, size_t n) const {
+double TimeHistory::percentile(uint32_t stage, double percent, size_t n, bool like_newest) const {
   std::array<double, kFrames> values;
   size_t found = 0;
   for (size_t ago = 0; ago < std::min(n, count_); ++ago) {
+    if (like_newest && (at(ago).resolution_share < 1.0) != (at(0).resolution_share < 1.0)) {
+      continue;
+    }
     const double ms = stage == kTotal ? at(ago).total_ms : at(ago).stage_ms[stage];
     if (ms >= 0.0) {
       values[found++] = ms;

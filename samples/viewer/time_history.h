@@ -24,9 +24,10 @@ class TimeHistory {
   size_t size() const { return count_; }
   const FrameTimes& at(size_t ago) const;  // 0: the newest; [0, size())
 
-  // Of a stage in the last n frames that ran it (ms); -1: none did.
-  double median(uint32_t stage, size_t n = kFrames) const { return percentile(stage, 50.0, n); }
-  double percentile(uint32_t stage, double percent, size_t n = kFrames) const;  // linear between frames, [0, 100]
+  // Of a stage in the last n frames that ran it (ms), of frames of the newest one's kind alone: reduced, or full; -1: none did.
+  double median(uint32_t stage, size_t n = kFrames) const { return percentile(stage, 50.0, n, true); }
+  // Of frames of both kinds, unless they are to be like the newest.
+  double percentile(uint32_t stage, double percent, size_t n = kFrames, bool like_newest = false) const;  // linear between frames, [0, 100]
 
  private:
   std::array<FrameTimes, kFrames> ring_;

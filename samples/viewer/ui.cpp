@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ui.h"
 
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 namespace forelock::samples::ui {
 
 namespace {
+
+constexpr float kTipAfter_s = 0.4f;
 
 struct Notes {
   std::vector<Item> items;
@@ -87,7 +90,9 @@ Scope::~Scope() {
 }
 
 void tip(const char* words) {
-  if (words && *words && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && !ImGui::IsItemActive()) {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  const bool rests = context.HoveredId == 0 || context.HoveredIdTimer > kTipAfter_s;
+  if (words && *words && rests && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && !ImGui::IsItemActive()) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
     ImGui::TextUnformatted(words);
@@ -223,7 +228,7 @@ void faintText(const std::string& words) {
 
 void fact(const char* name, const std::string& value) {
   ImGui::TextDisabled("%s", name);
-  ImGui::SameLine(ImGui::GetFontSize() * 7.0f);
+  ImGui::SameLine(ImGui::GetFontSize() * 8.5f);
   ImGui::TextWrapped("%s", value.c_str());
 }
 

@@ -60,7 +60,8 @@ void ViewInput::feed() {
       y_ = event.y;
       moved = true;
     } else if (event.kind == Event::Kind::button) {
-      if (buttons[code] || wheeled || keys.any()) break;
+      // What the mouse has only just come to is not hovered for a tab, and a slider takes no way that ends with the button up.
+      if (moved || buttons[code] || wheeled || keys.any()) break;
       buttons[code] = true;
       down_[code] = event.down;
     } else if (event.kind == Event::Kind::wheel) {

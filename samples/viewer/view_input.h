@@ -8,7 +8,7 @@ struct GLFWwindow;
 namespace forelock::samples {
 
 // Dear ImGui before 1.87 looks at what is down once a frame: a key that went down and up while a slow picture was drawn was never seen, a
-// drag was a click where it ended. Here what contradicts an earlier event waits for the next frame. To be removed with Dear ImGui 1.87,
+// drag was a click where it ended. Here what contradicts an earlier event, or follows a way, waits for the next frame. To be removed with Dear ImGui 1.87,
 // whose own queue this follows.
 class ViewInput {
 public:

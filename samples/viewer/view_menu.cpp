@@ -210,7 +210,8 @@ void alertWindow(ViewSession& session) {
     ImGui::Spacing();
     {
       const ui::Scope scope("Alert");
-      if (ui::button("Close", "") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+      if (ui::button("Close", "") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) ||
+          (!ImGui::IsWindowAppearing() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false))) {
         session.alert.clear();
         ImGui::CloseCurrentPopup();
       }

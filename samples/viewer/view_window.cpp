@@ -52,6 +52,7 @@ void styleUi(float scale) {
   style.Colors[ImGuiCol_WindowBg] = ImVec4(0.086f, 0.094f, 0.106f, 1.0f);
   style.Colors[ImGuiCol_PopupBg] = ImVec4(0.11f, 0.12f, 0.135f, 0.98f);
   style.Colors[ImGuiCol_MenuBarBg] = ImVec4(0.11f, 0.12f, 0.135f, 1.0f);
+  style.Colors[ImGuiCol_ModalWindowDimBg] = ImVec4(0.0f, 0.0f, 0.0f, 0.5f);
   style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.64f, 0.65f, 0.67f, 1.0f);
   style.Colors[ImGuiCol_SliderGrab].w = 0.45f;  // the number below it is read
   style.ScaleAllSizes(scale);

@@ -15,6 +15,7 @@ namespace forelock::samples {
 
 namespace {
 
+constexpr double kProgress_s = 0.03;       // leaves the processors to who loads
 constexpr double kIdle_s = 0.5;            // a person's input wakes it at once
 constexpr double kAgainAfterLoss_s = 5.0;  // a device that is lost sooner again is given up
 
@@ -209,7 +210,8 @@ int Viewer::run() {
     }
     const bool busy = script_.active() || session_.turning || session_.approach_to || turntable_views_ > 0 || !settled() || options_.frames > 0 ||
                       frames_ < 3 || picture_is_new_ || viewport_.dragging() || window_->input().waiting();
-    ViewWindow::poll(window_->hidden() && !script_.active() ? kIdle_s : busy ? 0.0 : kIdle_s);
+    const bool others_work = (loader_.busy() || compiling()) && !viewport_.dragging();  // a progress bar is all that moves
+    ViewWindow::poll(window_->hidden() && !script_.active() ? kIdle_s : others_work ? kProgress_s : busy ? 0.0 : kIdle_s);
     try {
       frame();
     } catch (const DeviceLost& lost) {

@@ -101,7 +101,7 @@ private:
   uint32_t frames_ = 0, settled_frames_ = 0;
   std::vector<double> moving_ms_;   // from the input to the picture, while something moved
   std::string turntable_path_;
-  uint32_t turntable_at_ = 0, turntable_views_ = 0;
+  uint32_t turntable_at_ = 0, turntable_views_ = 0, turntable_wanted_ = 0;
   Orbit turntable_from_;
   std::vector<std::string> validation_;
   float ui_scale_ = 0.0f;

@@ -34,6 +34,8 @@ bool namesAssets(const std::string& path) {
   return text.find("\"assets\"") != std::string::npos;
 }
 
+std::string withSuffix(const std::string& path, const char* suffix) { return fs::path(path).has_extension() ? path : path + suffix; }
+
 bool meshSuffix(const std::string& name) { return fs::path(name).extension() == ".gltf" || fs::path(name).extension() == ".glb"; }
 
 }  // namespace
@@ -89,7 +91,7 @@ void Viewer::openPath(const std::string& path, bool add) {
       }
     } catch (const std::exception& failure) {
       if (namesAssets(path)) {
-        session_.alert = failure.what();
+        session_.alert = path + ": " + failure.what();
         return;
       }
     }
@@ -123,6 +125,7 @@ void Viewer::adopt(std::unique_ptr<LoadedStage> loaded) {
     return;
   }
   if (!loaded->plain) {
+    first_picture_ = true;  // what comes next is not of it
     session_.alert = loaded->error + (session_.loaded() ? "\n\nWhat was open stays as it was." : "");
     return;
   }
@@ -221,9 +224,9 @@ void Viewer::takeBrowsed() {
     case ViewSession::Browse::add: openPath(*path, true); break;
     case ViewSession::Browse::mesh: addMesh(*path); break;
     case ViewSession::Browse::scene: openPath(*path, false); break;
-    case ViewSession::Browse::save_scene: saveSceneTo(*path); break;
-    case ViewSession::Browse::save_picture: savePictureTo(*path); break;
-    case ViewSession::Browse::save_turntable: turntable_path_ = *path; break;
+    case ViewSession::Browse::save_scene: saveSceneTo(withSuffix(*path, ".json")); break;
+    case ViewSession::Browse::save_picture: savePictureTo(withSuffix(*path, ".png")); break;
+    case ViewSession::Browse::save_turntable: turntable_path_ = withSuffix(*path, ".png"); break;
     default: break;
   }
 }
@@ -279,7 +282,8 @@ void Viewer::stepTurntable() {
   }
   if (turntable_at_ >= turntable_views_ || !session_.alert.empty()) {
     session_.orbit = turntable_from_;
-    session_.say("saved " + std::to_string(turntable_at_) + " views, " + numberedPath(turntable_path_, 0) + " and on");
+    session_.say((turntable_at_ < turntable_wanted_ ? "cancelled, " : "") + std::string("saved ") + std::to_string(turntable_at_) + " of " +
+                 std::to_string(turntable_wanted_) + " views, " + numberedPath(turntable_path_, 0) + " and on");
     turntable_views_ = 0;
     session_.busy.clear();
     return;

@@ -44,7 +44,10 @@ void Viewer::keys() {
     setShown(session_.scene, on ? FLK_DISPLAY_SHADED : FLK_DISPLAY_LAYERS);
   }
   for (uint32_t i = 0; i <= FLK_METHOD_HARD; ++i) {
-    if (pressed(GLFW_KEY_1 + static_cast<int>(i))) session_.scene.method = i;
+    if (pressed(GLFW_KEY_1 + static_cast<int>(i))) {
+      session_.scene.method = i;
+      session_.say("method " + methodNames()[i]);
+    }
   }
   if (pressed(GLFW_KEY_TAB)) session_.hide_panels = !session_.hide_panels;
   if (pressed(GLFW_KEY_ESCAPE)) {
@@ -97,7 +100,7 @@ void Viewer::takeRequests() {
   if (ask.save_scene && session_.loaded()) browse(Browse::save_scene);
   if (ask.save_picture && session_.loaded()) browse(Browse::save_picture);
   if (ask.turntable > 0 && session_.loaded()) {
-    turntable_views_ = ask.turntable;
+    turntable_views_ = turntable_wanted_ = ask.turntable;
     turntable_at_ = 0;
     turntable_path_.clear();
     browse(Browse::save_turntable);

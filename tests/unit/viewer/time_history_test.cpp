@@ -47,3 +47,19 @@ TEST(TimeHistory, FramesThatDidNotRunAStageDoNotCount) {
   EXPECT_EQ(history.median(FLK_STAGE_SHADOW), -1.0);
   EXPECT_EQ(history.median(FLK_STAGE_CAPTURE, 1), -1.0);
 }
+
+TEST(TimeHistory, MediansAreOfFramesLikeTheNewest) {
+  TimeHistory history;
+  FrameTimes frame;
+  for (const double share : {1.0, 0.4, 0.4, 1.0}) {
+    frame.resolution_share = share;
+    frame.total_ms = share < 1.0 ? 5.0 : 100.0;
+    history.add(frame);
+  }
+  EXPECT_EQ(history.median(TimeHistory::kTotal), 100.0);
+  frame.resolution_share = 0.5;
+  frame.total_ms = 6.0;
+  history.add(frame);
+  EXPECT_EQ(history.median(TimeHistory::kTotal), 5.0);
+  EXPECT_EQ(history.percentile(TimeHistory::kTotal, 100.0), 100.0);
+}

@@ -2,6 +2,7 @@
 
 #include "gpu_resources.h"
 
+#include <mutex>
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -111,8 +112,11 @@ struct HeadlessHost::Impl {
 
 namespace {
 
+std::mutex messages_mutex;  // the layers call from every thread that calls Vulkan
+
 VKAPI_ATTR VkBool32 VKAPI_CALL onValidation(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                             const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  const std::lock_guard<std::mutex> lock(messages_mutex);
   static_cast<std::vector<std::string>*>(user)->push_back(data->pMessage);
   return VK_FALSE;
 }

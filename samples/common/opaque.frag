@@ -42,12 +42,14 @@ void main() {
   vec3 normal = in_normal * inversesqrt(max(dot(in_normal, in_normal), 1e-12)) * (gl_FrontFacing ? 1.0 : -1.0);
   vec3 to_eye = frame.at.orthographic != 0 ? frame.at.back : normalize(frame.at.eye - p);
   vec3 diffuse = vec3(0.0), gloss = vec3(0.0);
-  float weight = 0.0, weighted_through = 0.0;
+  float weight = 0.0, weighted_through = 0.0, all = 0.0;
   for (uint i = 0; i < frame.at.light_count; ++i) {
     LightConstants light = push.lights.at[i];
     vec3 to_light;
     float lit = arriving(light, p, to_light);
     float facing = dot(normal, to_light);
+    float strength = light.color.x + light.color.y + light.color.z;
+    all += lit * strength;
     lit *= max(facing, 0.0);
     if (lit <= 0.0) {
       continue;
@@ -57,7 +59,7 @@ void main() {
     }
     if (light.face_count > 0 && lit > 0.0) {
       float through = pastHair(light, p, -frame.at.fibres_per_metre * frame.at.log2_transmittance);
-      float share = lit * (light.color.x + light.color.y + light.color.z);
+      float share = lit * strength;
       weight += share;
       weighted_through += share * through;
       lit *= through;
@@ -68,7 +70,8 @@ void main() {
     gloss += light.color * (0.05 * lit * square * square * square * square * 0.3183099);
   }
   float through = weight > 0.0 ? weighted_through / weight : 1.0;
-  float sky_through = 0.4 + 0.6 * through;  // what hides the light hides much of the sky
+  // What hides the light hides much of the sky. Where little of the light would arrive anyway it tells nothing: no edge at the terminator.
+  float sky_through = 1.0 - 0.6 * (1.0 - through) * clamp(4.0 * weight / max(all, 1e-12), 0.0, 1.0);
   vec3 sky = frame.at.ambient * (0.6 + 0.4 * normal.y) + irradiance(normal);
   vec3 albedo = vec3(push.albedo_red, push.albedo_green, push.albedo_blue);
   out_color = vec4(albedo * (diffuse + sky * (in_openness * sky_through)) + gloss, 1.0);

@@ -56,7 +56,7 @@ void timeGraph(const TimeHistory& times) {
       }
       below += ms;
     }
-    if (frame.resolution_share < 0.999) {  // a quick picture: marked below
+    if (frame.reduced) {  // a quick picture: marked below
       draw->AddRectFilled(ImVec2(right - column, low.y + size.y - 2.0f), ImVec2(right, low.y + size.y), IM_COL32(240, 220, 90, 255));
     }
   }
@@ -74,7 +74,7 @@ void timeGraph(const TimeHistory& times) {
         }
       }
       std::snprintf(text, sizeof text, "\nat %.0f %% of the window's resolution", 100.0 * frame.resolution_share);
-      words += frame.resolution_share < 0.999 ? text : "";
+      words += frame.reduced ? text : "";
       ui::tip(words.c_str());
     }
   }
@@ -117,9 +117,7 @@ void costPanel(ViewSession& session, const LayerFacts* facts) {
   ui::fact("Memory", readableBytes(facts->plan.bytes_persistent + facts->plan.bytes_transient));
   ui::fact("  of hair", readableBytes(facts->plan.bytes_persistent));
   ui::fact("  of the view", readableBytes(facts->plan.bytes_transient));
-  if (session.lists_grow) {
-    ui::faintText("The lists were too short; it is drawn again with longer ones.");
-  } else if (statistics.overflow_fragments > 0) {
+  if (statistics.overflow_fragments > 0) {
     ImGui::TextColored(ImVec4(1.0f, 0.5f, 0.3f, 1.0f), "Overflow: %s fragments", groupedDigits(statistics.overflow_fragments).c_str());
     ui::tip("They found the lists full and are drawn as a sum; the next picture has longer lists, up to 1 GiB");
   }

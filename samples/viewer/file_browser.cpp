@@ -15,6 +15,7 @@ void FileBrowser::open(const std::string& title, const std::string& folder, std:
                        const std::string& name, bool ask) {
   title_ = title;
   ask_ = ask;
+  suffix_ = fs::path(name).extension().string();
   offer_ = std::move(offer);
   name_ = name;
   saving_ = !name.empty();
@@ -133,16 +134,19 @@ std::optional<std::string> FileBrowser::draw() {
       enter = (fs::path(folder_) / entry.name).string();
     } else if (pressed) {
       name_ = entry.name;
-      if (!saving_ && ImGui::IsMouseDoubleClicked(0)) {
+      if (!saving_ && ImGui::IsMouseDoubleClicked(0) &&
+          ImGui::GetTime() - entered_s_ > 0.5) {  // else its first click was on the folder that was there
         finish((fs::path(folder_) / entry.name).string());
       }
     }
   }
   if (!enter.empty()) {
+    entered_s_ = ImGui::GetTime();
     go(enter);
   }
   ImGui::EndChild();
-  const std::string path = (fs::path(folder_) / name_).string();
+  const bool bare = saving_ && !name_.empty() && !fs::path(name_).has_extension();
+  const std::string path = (fs::path(folder_) / (bare ? name_ + suffix_ : name_)).string();
   std::error_code error;
   const bool usable = !name_.empty() && !fs::is_directory(path, error);
   bool confirm = false;

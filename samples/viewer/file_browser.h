@@ -10,11 +10,11 @@ namespace forelock::samples {
 
 class FileBrowser {
 public:
-  // `offer` tells which files are shown at first. A name to start with makes it ask where to write; `ask` before it is written over.
+  // `offer` tells which files are shown at first. A name to start with makes it ask where to write, and gives
+  // names without an extension its own; `ask` before a file is written over.
   void open(const std::string& title, const std::string& folder, std::function<bool(const std::string&)> offer, const std::string& name = {},
             bool ask = true);
   bool isOpen() const { return open_; }
-  void close() { open_ = false; }
   // Draws it; the path once one is chosen.
   std::optional<std::string> draw();
   const std::string& folder() const { return folder_; }
@@ -27,9 +27,10 @@ private:
   };
   void go(const std::string& folder);
 
-  std::string title_, folder_, name_, typed_, problem_, overwrite_;
+  std::string title_, folder_, name_, suffix_, typed_, problem_, overwrite_;
   std::function<bool(const std::string&)> offer_;
   std::vector<Entry> entries_;
+  double entered_s_ = 0.0;  // when a folder was opened
   bool open_ = false, saving_ = false, all_ = false, opening_ = false, ask_ = true;
 };
 

@@ -17,7 +17,7 @@ double TimeHistory::percentile(uint32_t stage, double percent, size_t n, bool li
   std::array<double, kFrames> values;
   size_t found = 0;
   for (size_t ago = 0; ago < std::min(n, count_); ++ago) {
-    if (like_newest && (at(ago).resolution_share < 1.0) != (at(0).resolution_share < 1.0)) {
+    if (like_newest && at(ago).reduced != at(0).reduced) {
       continue;
     }
     const double ms = stage == kTotal ? at(ago).total_ms : at(ago).stage_ms[stage];

@@ -12,6 +12,7 @@ struct FrameTimes {
   std::array<double, FLK_STAGE_COUNT> stage_ms{};  // by FLK_STAGE_...; below 0: not timed or not run
   double total_ms = -1.0;                          // below 0: not timed
   double resolution_share = 1.0;                   // of the window's pixels a side that were drawn (0, 1]
+  bool reduced = false;                            // of fewer strands, coarser meshes, smaller shadow maps
 };
 
 class TimeHistory {

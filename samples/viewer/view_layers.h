@@ -70,7 +70,8 @@ public:
   void renewHair(size_t index);
 
   // Makes the pipelines that such a picture needs and that are not there yet, which takes seconds where shaders are compiled slowly. May
-  // run in a thread of its own: meanwhile what was drawn can be shown, and nothing else here be called. Throws AssetError.
+  // run in a thread of its own: meanwhile what was drawn can be shown, and of the rest only drawn, facts, opaqueView and hairImage be called.
+  // Depths of what is opaque are then to be drawn anew. Throws AssetError.
   void compile(const LayerRequest& request);
 
   // What tells the exposure that `forelock preview` chooses, and that exposure.
@@ -123,7 +124,7 @@ private:
   const Stage* stage_ = nullptr;
   std::vector<Hair> hairs_, few_;
   std::unique_ptr<OpaqueScene> opaque_, coarse_;  // coarse_: for cheap pictures
-  OpaqueScene* opaque_drawn_ = nullptr;           // of the last picture
+  OpaqueScene* opaque_drawn_ = nullptr;           // that was prepared last
   GpuImage opaque_color_;
   bool opaque_planned_ = false;
   std::array<Slot, kLayerCount> slots_;

@@ -20,7 +20,7 @@ struct LoadedStage {
   std::string error;               // why there is no stage: a sentence
   std::vector<SceneMesh> meshes;   // without a stage: what was asked for as hair, and is meshes alone
   double seconds = 0.0;
-  bool read = false;               // something of it from a file
+  bool read = false;               // an asset of it from a file
 };
 
 // What may come after the picture.

@@ -25,6 +25,7 @@ Scene sceneOf(const ViewSession& session, const std::string& source, bool add) {
   asset.source = source;
   if (!add) {
     scene.assets.clear();
+    scene.meshes.clear();
     scene.head.reset();
     scene.exposure = 0.0;
   }

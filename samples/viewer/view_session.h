@@ -75,9 +75,7 @@ struct ViewSession {
   TimeHistory times;
   double frame_ms = 0.0;                  // of the last picture, from planning until it was there
   double share = 1.0;                     // of the window's resolution that was drawn
-  bool few_strands = false;               // the last picture was of a level of detail
   bool auto_exposure = false;             // the exposure is chosen again when lights or materials change
-  bool lists_grow = false;                // the last picture overflowed and is drawn again
   bool compiling = false;                 // pipelines: nothing may be asked of the layers
   bool reduced = false;                   // what is shown is not the full picture
   bool hide_panels = false;               // with a key; not remembered, so that nobody starts without them

@@ -40,6 +40,7 @@ bool Viewer::makeDevice(std::string& error) {
     device_->layers->setStage(*session_.stage());
   }
   drawn_key_.clear();
+  drawn_full_ = sounding_ = false;
   compiled_keys_.clear();
   return true;
 }
@@ -77,6 +78,7 @@ void Viewer::frame() {
   if (!first_picture_ && (opening_ || session_.loaded())) {
     held_ms_ = std::max(held_ms_, 1e3 * dt);
   }
+  const bool just_compiled = !compiling() && takeCompiled();
   if (!compiling()) {
     if (ready_) {
       adopt(std::exchange(ready_, nullptr));
@@ -99,7 +101,7 @@ void Viewer::frame() {
     device_->screen->setUiScale(scale);
   }
   const bool busy = compiling();
-  session_.compiling = busy;
+  session_.compiling = busy || just_compiled;
   device_->screen->setVsync(session_.settings.vsync && options_.script.empty());
   device_->screen->beginUi();
   script_.drive(settled());
@@ -236,6 +238,7 @@ int Viewer::run() {
 }
 
 int Viewer::finish() {
+  compiling_ = {};  // waits for it
   if (window_ && !options_.forget) {
     int width = 0, height = 0;
     glfwGetWindowSize(window_->handle(), &width, &height);
@@ -247,8 +250,12 @@ int Viewer::finish() {
       if (session_.loaded()) {
         session_.settings.last_scene = writeScene(withAbsolutePaths(session_.currentScene()));
       }
+    } catch (const std::exception&) {  // a name that is not UTF-8
+      session_.settings.last_scene.clear();
+    }
+    try {
       saveSettings(session_.settings_path, session_.settings);
-    } catch (const std::exception& error) {
+    } catch (const AssetError& error) {
       std::fprintf(stderr, "forelock: %s\n", error.what());
     }
   }
@@ -257,7 +264,6 @@ int Viewer::finish() {
     validation_.insert(validation_.end(), messages.begin(), messages.end());
   }
   loader_.stopStudy();
-  compiling_ = {};
   device_.reset();
   for (const std::string& message : validation_) {
     std::fprintf(stderr, "forelock: validation: %s\n", message.c_str());

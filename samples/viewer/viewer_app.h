@@ -44,7 +44,7 @@ private:
   void loseDevice(const std::string& why);
   void adopt(std::unique_ptr<LoadedStage> loaded);
   void adoptExtras(std::unique_ptr<LoadedExtras> extras);
-  void open(const Scene& scene, const OpenFiles& files = {});
+  void open(const Scene& scene, const OpenFiles& files = {}, bool arranging = false);
   OpenFiles openFiles() const;
   void addMesh(const std::string& path);
   void openPath(const std::string& path, bool add);
@@ -61,8 +61,10 @@ private:
   bool planPicture(bool& planned);
   bool compiled(const LayerRequest& request);
   bool compiling() const;
+  bool takeCompiled();
+  bool drawFull();
   void afterPicture(double ms);
-  void savePictureTo(const std::string& path, LayerIndex layer = kLayerFirst);
+  bool savePictureTo(const std::string& path);
   void saveSceneTo(const std::string& path);
   void stepTurntable();
   std::vector<glm::vec3> selectedPoints() const;
@@ -93,15 +95,17 @@ private:
   bool drawn_full_ = false, again_ = false;
   Clock::time_point last_change_ = Clock::now(), last_frame_ = Clock::now(), opened_ = Clock::now(), lost_{};
   double cheap_share_ = 0.35, full_ms_ = 0.0;
+  bool whole_ = false;         // nothing but full pictures are planned
   bool sounding_ = false;      // what is shown is the small picture that told the exposure
   std::string opened_text_;
   double held_ms_ = 0.0;       // longest time between two frames from opening until the first picture
   bool picture_is_new_ = false;  // its numbers are not on the screen yet
+  bool arranging_ = false;  // what is opened is what was open: the view stays
   bool opening_ = false, first_picture_ = false, minimised_ = false;
   uint32_t frames_ = 0, settled_frames_ = 0;
   std::vector<double> moving_ms_;   // from the input to the picture, while something moved
   std::string turntable_path_;
-  uint32_t turntable_at_ = 0, turntable_views_ = 0, turntable_wanted_ = 0;
+  uint32_t turntable_at_ = 0, turntable_views_ = 0, turntable_wanted_ = 0, turntable_saved_ = 0;
   Orbit turntable_from_;
   std::vector<std::string> validation_;
   float ui_scale_ = 0.0f;

@@ -34,13 +34,12 @@ bool namesAssets(const std::string& path) {
   return text.find("\"assets\"") != std::string::npos;
 }
 
-std::string withSuffix(const std::string& path, const char* suffix) { return fs::path(path).has_extension() ? path : path + suffix; }
-
 bool meshSuffix(const std::string& name) { return fs::path(name).extension() == ".gltf" || fs::path(name).extension() == ".glb"; }
 
 }  // namespace
 
-void Viewer::open(const Scene& scene, const OpenFiles& files) {
+void Viewer::open(const Scene& scene, const OpenFiles& files, bool arranging) {
+  arranging_ = arranging;
   opened_ = Clock::now();
   opening_ = true;
   first_picture_ = false;
@@ -71,7 +70,7 @@ void Viewer::addMesh(const std::string& path) {
   }
   Scene scene = session_.currentScene();
   scene.meshes.emplace_back().source = path;
-  open(scene, openFiles());
+  open(scene, openFiles(), true);
 }
 
 void Viewer::openPath(const std::string& path, bool add) {
@@ -121,7 +120,7 @@ void Viewer::adopt(std::unique_ptr<LoadedStage> loaded) {
   if (!loaded->plain && !loaded->meshes.empty() && session_.loaded()) {  // meshes go beside the hair that is open
     Scene scene = session_.currentScene();
     scene.meshes.insert(scene.meshes.end(), loaded->meshes.begin(), loaded->meshes.end());
-    open(scene, openFiles());
+    open(scene, openFiles(), true);
     return;
   }
   if (!loaded->plain) {
@@ -159,11 +158,14 @@ void Viewer::adopt(std::unique_ptr<LoadedStage> loaded) {
   viewport_.size(session_.scene.width, session_.scene.height);
   session_.plain->scene.width = session_.scene.width;
   session_.plain->scene.height = session_.scene.height;
-  home_ = orbitOf(stageCamera(*session_.plain, 0, 1), session_.scene.camera.up);
-  session_.orbit = home_;
-  session_.approach_to.reset();
+  if (!arranging_) {
+    home_ = orbitOf(stageCamera(*session_.plain, 0, 1), session_.scene.camera.up);
+    session_.orbit = home_;
+    session_.approach_to.reset();
+  }
   applied_ = session_.scene;
   drawn_key_.clear();
+  drawn_full_ = sounding_ = false;
   compiled_keys_.clear();  // other assets may need others
   last_change_ = Clock::now();
   std::string names;
@@ -224,27 +226,24 @@ void Viewer::takeBrowsed() {
     case ViewSession::Browse::add: openPath(*path, true); break;
     case ViewSession::Browse::mesh: addMesh(*path); break;
     case ViewSession::Browse::scene: openPath(*path, false); break;
-    case ViewSession::Browse::save_scene: saveSceneTo(withSuffix(*path, ".json")); break;
-    case ViewSession::Browse::save_picture: savePictureTo(withSuffix(*path, ".png")); break;
-    case ViewSession::Browse::save_turntable: turntable_path_ = withSuffix(*path, ".png"); break;
+    case ViewSession::Browse::save_scene: saveSceneTo(*path); break;
+    case ViewSession::Browse::save_picture: savePictureTo(*path); break;
+    case ViewSession::Browse::save_turntable: turntable_path_ = *path; break;
     default: break;
   }
 }
 
-void Viewer::savePictureTo(const std::string& path, LayerIndex layer) {
+// False: it was not written, and an alert says why.
+bool Viewer::savePictureTo(const std::string& path) {
   try {
     if (!isImagePath(path)) {
       throw AssetError(FLK_ERROR_IO, path + ": no picture format of this extension, use .png or .exr");
     }
-    if (!drawn_full_) {  // whatever is on the screen now, a picture is the full one
-      bool planned = false;
-      last_change_ = Clock::now() - std::chrono::seconds(10);
-      for (int attempt = 0; attempt < 4 && planPicture(planned) && planned; ++attempt) {
-        device_->screen->host().submit([&](VkCommandBuffer cmd) { device_->layers->record(cmd); });
-        afterPicture(0.0);
-      }
+    if (!drawFull()) {
+      throw AssetError(FLK_ERROR_IO, path + ": nothing was written, because the picture could not be drawn" +
+                                         (session_.alert.empty() ? "" : ":\n" + session_.alert));
     }
-    Image image = device_->layers->read(layer);
+    Image image = device_->layers->read(kLayerFirst);
     if (session_.scene.background) {
       const glm::vec3 ground(*session_.scene.background);
       image = over(image, &ground[0]);
@@ -253,8 +252,12 @@ void Viewer::savePictureTo(const std::string& path, LayerIndex layer) {
     drawLegend(image, session_.stage()->legend, corner);
     savePicture(path, image);
     session_.say("saved " + path);
+    return true;
+  } catch (const DeviceLost&) {
+    throw;
   } catch (const std::runtime_error& error) {
     session_.alert = error.what();
+    return false;
   }
 }
 
@@ -278,11 +281,11 @@ void Viewer::stepTurntable() {
   if (turntable_at_ == 0) {
     turntable_from_ = session_.orbit;
   } else {
-    savePictureTo(numberedPath(turntable_path_, turntable_at_ - 1));
+    turntable_saved_ += savePictureTo(numberedPath(turntable_path_, turntable_at_ - 1)) ? 1 : 0;
   }
   if (turntable_at_ >= turntable_views_ || !session_.alert.empty()) {
     session_.orbit = turntable_from_;
-    session_.say((turntable_at_ < turntable_wanted_ ? "cancelled, " : "") + std::string("saved ") + std::to_string(turntable_at_) + " of " +
+    session_.say((turntable_views_ < turntable_wanted_ ? "cancelled, " : "") + std::string("saved ") + std::to_string(turntable_saved_) + " of " +
                  std::to_string(turntable_wanted_) + " views, " + numberedPath(turntable_path_, 0) + " and on");
     turntable_views_ = 0;
     session_.busy.clear();

@@ -91,8 +91,8 @@ void Viewer::takeRequests() {
   Requests ask = std::exchange(session_.requests, {});
   using Browse = ViewSession::Browse;
   if (ask.open) open(*ask.open);
-  if (ask.arrange) open(*ask.arrange, openFiles());
-  if (ask.reload && session_.loaded()) open(session_.currentScene());
+  if (ask.arrange) open(*ask.arrange, openFiles(), true);
+  if (ask.reload && session_.loaded()) open(session_.currentScene(), {}, true);
   if (ask.open_file) browse(Browse::open);
   if (ask.add_file) browse(Browse::add);
   if (ask.add_mesh) browse(Browse::mesh);
@@ -101,7 +101,7 @@ void Viewer::takeRequests() {
   if (ask.save_picture && session_.loaded()) browse(Browse::save_picture);
   if (ask.turntable > 0 && session_.loaded()) {
     turntable_views_ = turntable_wanted_ = ask.turntable;
-    turntable_at_ = 0;
+    turntable_at_ = turntable_saved_ = 0;
     turntable_path_.clear();
     browse(Browse::save_turntable);
   }

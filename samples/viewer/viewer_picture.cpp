@@ -175,10 +175,6 @@ void Viewer::moveCamera(double dt) {
 // Whether a picture can be planned without making pipelines. Else they are made beside the window, which goes on.
 bool Viewer::compiled(const LayerRequest& request) {
   const std::string key = pipelineKey(session_.scene, request);
-  if (compiling_.valid()) {  // and done
-    std::exchange(compiling_, {}).get();  // what was wrong is told as of planning
-    compiled_keys_.insert(compiling_key_);
-  }
   if (compiled_keys_.count(key) > 0) {
     return true;
   }
@@ -190,13 +186,59 @@ bool Viewer::compiled(const LayerRequest& request) {
   if (compiling_.wait_for(std::chrono::milliseconds(kQuick_ms)) != std::future_status::ready) {
     return false;
   }
-  return compiled(request);
+  takeCompiled();
+  return true;
+}
+
+// Of what has been made. True: there was something. What was drawn is then to be drawn again: it left the depths of meshes undrawn.
+bool Viewer::takeCompiled() {
+  if (!compiling_.valid()) {
+    return false;
+  }
+  try {
+    std::exchange(compiling_, {}).get();
+  } catch (const AssetError&) {  // planning meets it again, and tells
+  }
+  compiled_keys_.insert(compiling_key_);
+  drawn_key_.clear();
+  return true;
+}
+
+// Draws the full picture of the scene as it is now, whatever is on the screen. False: it failed.
+bool Viewer::drawFull() {
+  if (compiling_.valid()) {
+    compiling_.wait();
+    takeCompiled();
+  }
+  applyEdits();
+  if (drawn_full_ && !again_ && !sounding_ && pictureKey(session_, cameraOf(session_.orbit, session_.bounds)) == drawn_key_) {
+    return true;
+  }
+  drawn_full_ = false;
+  whole_ = true;
+  bool fine = true;
+  for (int pictures = 0, tries = 0; fine && pictures < 4 && tries < 16 && (!drawn_full_ || again_); ++tries) {
+    bool planned = false;
+    fine = planPicture(planned);
+    if (fine && planned) {
+      fine = device_->screen->host().submit([&](VkCommandBuffer cmd) { device_->layers->record(cmd); });
+      if (!fine) {
+        throw DeviceLost("drawing: the device was lost");
+      }
+      afterPicture(0.0);
+      ++pictures;
+    } else if (compiling_.valid()) {
+      compiling_.wait();
+      takeCompiled();
+    }
+  }
+  whole_ = false;
+  return fine && drawn_full_;
 }
 
 // Plans the layers that the window needs anew. False: failed, and said so.
 bool Viewer::planPicture(bool& planned) {
   planned = false;
-  sounding_ = false;
   if (!session_.stage()) {
     return true;
   }
@@ -219,10 +261,11 @@ bool Viewer::planPicture(bool& planned) {
   if (window_->input().waiting()) {  // a full picture would hold it up
     last_change_ = now;
   }
-  const bool moving = seconds(now - last_change_) < kStillAfter_s && turntable_views_ == 0;
+  const bool moving = seconds(now - last_change_) < kStillAfter_s && turntable_views_ == 0 && !whole_;
   const bool adapt = session_.settings.adapt && (full_ms_ > session_.settings.moving_budget_ms || full_ms_ == 0.0);
   const bool cheap = moving && adapt;
   if (key == drawn_key_ && !again_ && (drawn_full_ || cheap)) {
+    sounding_ = false;
     return true;
   }
   try {
@@ -234,10 +277,10 @@ bool Viewer::planPicture(bool& planned) {
       applied_.exposure = scene.exposure;
       session_.plain->scene.exposure = scene.exposure;
       key = pictureKey(session_, camera);
-      if (!first_picture_) {  // the small picture that told the exposure is shown at once
-        const VkImageView small = device_->layers->hairImage(kLayerFirst).view;
-        device_->display->bind({small, small, small});
-        sounding_ = true;
+      const VkImageView small = device_->layers->hairImage(kLayerFirst).view;  // is shown until there is a larger one
+      device_->display->bind({small, small, small});
+      sounding_ = true;
+      if (!first_picture_) {
         return true;
       }
     }
@@ -251,7 +294,6 @@ bool Viewer::planPicture(bool& planned) {
     request.width = cheap ? std::min(scaled(scene.width), scene.width) : scene.width;
     request.height = cheap ? std::min(scaled(scene.height), scene.height) : scene.height;
     request.few_strands = cheap && cheap_share_ < 0.7 && scene.display != FLK_DISPLAY_LAYERS && device_->layers->hasFewStrands();
-    session_.few_strands = request.few_strands;
     request.methods[kLayerFirst] = methodOf(scene);
     if (session_.compare != Compare::none && session_.shaded()) {
       request.methods[kLayerSecond] = session_.second;
@@ -271,8 +313,10 @@ bool Viewer::planPicture(bool& planned) {
     device_->display->bind({first, second, opaque ? opaque : first});
     drawn_key_ = key;
     drawn_full_ = !cheap;
+    sounding_ = false;
     planned = true;
   } catch (const AssetError& error) {
+    sounding_ = false;
     session_.alert = error.what();
     drawn_key_ = key;  // not again until something changes
     drawn_full_ = true;
@@ -282,12 +326,13 @@ bool Viewer::planPicture(bool& planned) {
 }
 
 void Viewer::afterPicture(double ms) {
-  session_.lists_grow = again_ = device_->layers->finish();
+  again_ = device_->layers->finish();
   const FlkStatistics& statistics = device_->layers->facts(kLayerFirst).statistics;
   FrameTimes times;
   std::copy(statistics.milliseconds, statistics.milliseconds + FLK_STAGE_COUNT, times.stage_ms.begin());
   times.total_ms = statistics.milliseconds_frame;
   times.resolution_share = session_.share;
+  times.reduced = !drawn_full_;
   session_.times.add(times);
   session_.frame_ms = ms;
   if (drawn_full_) {

@@ -251,7 +251,7 @@ void Viewport::drawSelection(const ViewSession& session) const {
   draw->PopClipRect();
 }
 
-// In the lower left corner, as a saved picture has it where there is room.
+// In the lower left corner.
 void Viewport::drawLegend(const Legend& legend) const {
   if (legend.title.empty()) {
     return;

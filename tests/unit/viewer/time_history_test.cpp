@@ -51,13 +51,13 @@ TEST(TimeHistory, FramesThatDidNotRunAStageDoNotCount) {
 TEST(TimeHistory, MediansAreOfFramesLikeTheNewest) {
   TimeHistory history;
   FrameTimes frame;
-  for (const double share : {1.0, 0.4, 0.4, 1.0}) {
-    frame.resolution_share = share;
-    frame.total_ms = share < 1.0 ? 5.0 : 100.0;
+  for (const bool reduced : {false, true, true, false}) {
+    frame.reduced = reduced;
+    frame.total_ms = reduced ? 5.0 : 100.0;
     history.add(frame);
   }
   EXPECT_EQ(history.median(TimeHistory::kTotal), 100.0);
-  frame.resolution_share = 0.5;
+  frame.reduced = true;  // whatever its share of the resolution
   frame.total_ms = 6.0;
   history.add(frame);
   EXPECT_EQ(history.median(TimeHistory::kTotal), 5.0);

@@ -200,7 +200,7 @@ bool Viewer::takeCompiled() {
   } catch (const AssetError&) {  // planning meets it again, and tells
   }
   compiled_keys_.insert(compiling_key_);
-  drawn_key_.clear();
+  again_ = true;
   return true;
 }
 
@@ -316,7 +316,7 @@ bool Viewer::planPicture(bool& planned) {
     sounding_ = false;
     planned = true;
   } catch (const AssetError& error) {
-    sounding_ = false;
+    sounding_ = again_ = false;
     session_.alert = error.what();
     drawn_key_ = key;  // not again until something changes
     drawn_full_ = true;

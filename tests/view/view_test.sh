@@ -25,9 +25,11 @@ cat >wedge.gltf <<'END'
 END
 
 echo "-- a tour"
-rm -f tour.png tour.sh command.png tour-window.png
+rm -f at-once.png later.png tour.png tour.sh command.png tour-window.png
 window small.json --window 1100x700 --script "$scripts/tour.txt"
 [ -s tour-window.png ] || { echo "no picture of the window" >&2; exit 1; }
+
+cmp at-once.png later.png || { echo "a picture that was saved while shaders were compiled is another" >&2; exit 1; }
 
 echo "-- the command line that it copied makes the same picture"
 PATH=$(dirname "$forelock"):$PATH sh ./tour.sh >/dev/null

@@ -2,13 +2,13 @@
 
 #include "gpu_resources.h"
 
-#include <mutex>
 #include <dlfcn.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 
 namespace forelock::samples {
 namespace {

@@ -27,13 +27,7 @@ std::string extensionOf(const std::string& path) {
 
 float clamp01(float x) { return x > 0.0f ? std::min(x, 1.0f) : 0.0f; }  // NaN becomes 0
 
-uint8_t toSrgb(float linear) {
-  const float x = clamp01(linear);
-  const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-  return static_cast<uint8_t>(encoded * 255.0f + 0.5f);
-}
-
-float fromSrgb(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
+uint8_t toSrgb(float linear) { return static_cast<uint8_t>(encodeSrgb(linear) * 255.0f + 0.5f); }
 
 void writePfm(const std::string& path, const Image& image) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
@@ -104,6 +98,16 @@ std::string firstLine(const std::string& text) { return text.substr(0, text.find
 
 }  // namespace
 
+float encodeSrgb(float linear) {
+  const float x = clamp01(linear);
+  return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+}
+
+float decodeSrgb(float coded) {
+  const float x = clamp01(coded);
+  return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+}
+
 Image over(const Image& image, const float background[3]) {
   Image result = image;
   for (size_t i = 0; i < result.rgba.size(); i += 4) {
@@ -150,7 +154,7 @@ Image readImage(const std::string& path) {
     to[3] = has_alpha ? from[colors] : 1.0f;
     for (size_t channel = 0; channel < 3; ++channel) {
       const float value = from[colors == 3 ? channel : 0];
-      to[channel] = encoded ? fromSrgb(value) : value;
+      to[channel] = encoded ? decodeSrgb(value) : value;
     }
   }
   return image;

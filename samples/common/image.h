@@ -20,6 +20,10 @@ struct Image {
   const float* pixel(uint32_t x, uint32_t y) const { return &rgba[4 * (size_t{y} * width + x)]; }
 };
 
+// The curve of sRGB between a linear and a coded channel, both [0, 1]; what is beyond is cut off, NaN becomes 0.
+float encodeSrgb(float linear);
+float decodeSrgb(float coded);
+
 // The image over an opaque linear colour.
 Image over(const Image& image, const float background[3]);
 

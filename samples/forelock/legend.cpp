@@ -15,7 +15,6 @@ namespace forelock::samples {
 namespace {
 
 const glm::vec3 kGround(0.020f, 0.022f, 0.026f), kText(0.75f);
-constexpr size_t kMostSwatches = 10;
 
 // How much differs from the picture's upper left pixel: hair, or the bust.
 double hairIn(const Image& image, int left, int top, int width, int height) {

@@ -26,6 +26,8 @@ Legend displayLegend(uint32_t display);
 // Of the bar, where it has one: linear, at a share of it in [0, 1].
 glm::vec3 barColor(const Legend& legend, double share);
 
+inline constexpr size_t kMostSwatches = 10;  // that are shown; the last of more says so
+
 // Nothing where the picture is too small for it. `corner`: negative becomes the one where it covers least, the lower left one if equal;
 // the next pictures of a row keep it.
 void drawLegend(Image& image, const Legend& legend, int& corner);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "ui.h"
 
+#include "image.h"
+
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace forelock::samples::ui {
 
@@ -19,8 +20,6 @@ struct Notes {
   bool note = false;
 };
 Notes notes;  // Dear ImGui has one context, and so has this
-
-float decode(float coded) { return coded <= 0.04045f ? coded / 12.92f : std::pow((coded + 0.055f) / 1.055f, 2.4f); }
 
 // The prefix without its last part.
 void shorten() {
@@ -37,11 +36,6 @@ void begin(bool note) {
   notes.items.clear();
   notes.prefix.clear();
   notes.note = note;
-}
-
-float encodeSrgb(float linear) {
-  const float c = std::clamp(linear, 0.0f, 1.0f);
-  return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
 }
 
 const std::vector<Item>& items() { return notes.items; }
@@ -182,7 +176,7 @@ bool color(const char* label, float linear[3], const char* words) {
   const bool changed = ImGui::ColorEdit3(label, coded, ImGuiColorEditFlags_DisplayHex);
   if (changed) {
     for (int i = 0; i < 3; ++i) {
-      linear[i] = decode(coded[i]);
+      linear[i] = decodeSrgb(coded[i]);
     }
   }
   tip(words);

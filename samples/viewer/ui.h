@@ -56,7 +56,6 @@ bool selectable(const std::string& label, bool selected);
 bool menuItem(const char* label, const char* keys, bool enabled = true);
 bool menuCheck(const char* label, const char* keys, bool& value);
 bool nameInput(const char* label, std::string& text, const char* tip);  // true on Enter
-float encodeSrgb(float linear);
 void tip(const char* text);      // of the last widget
 void text(const std::string& words);         // wrapped
 void faintText(const std::string& words);    // wrapped, in grey

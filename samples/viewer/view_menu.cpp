@@ -235,8 +235,8 @@ void busyOverlay(ViewSession& session, float x, float y, float width, float heig
     const double t = std::fmod(ImGui::GetTime(), 1.5) / 1.5;
     ImGui::ProgressBar(static_cast<float>(t), ImVec2(-1.0f, 0.0f), "");
   }
-  if (session.can_cancel && ui::button("Cancel", "What is written already stays")) {
-    session.requests.cancel = true;
+  if (session.busy_with_turntable && ui::button("Cancel", "What is written already stays")) {
+    session.requests.cancel_turntable = true;
   }
   ImGui::End();
 }

@@ -41,7 +41,7 @@ struct Requests {
   std::optional<std::string> camera;      // of the groom
   std::optional<float> ui_scale;
   uint32_t turntable = 0;                 // views to write
-  bool cancel = false;                    // them
+  bool cancel_turntable = false;
 };
 
 struct ViewSession {
@@ -83,7 +83,7 @@ struct ViewSession {
 
   std::string busy;                       // what is under way, for a progress bar
   float busy_share = -1.0f;
-  bool can_cancel = false;                // it
+  bool busy_with_turntable = false;       // which can be cancelled
   std::string alert;                      // to be read and closed
   std::string status;                     // a line at the bottom
   std::vector<std::string> notes;         // of the stage

@@ -438,7 +438,7 @@ void ViewScreen::writeCapture() {
     const size_t channel = i % 4;
     const size_t from = channel == 3 || format_ == VK_FORMAT_R8G8B8A8_UNORM ? i : i - channel + (2 - channel);
     const float coded = static_cast<float>(bytes[from]) / 255.0f;
-    image.rgba[i] = channel == 3 ? 1.0f : coded <= 0.04045f ? coded / 12.92f : std::pow((coded + 0.055f) / 1.055f, 2.4f);
+    image.rgba[i] = channel == 3 ? 1.0f : decodeSrgb(coded);
   }
   host_->resources().destroy(captured_);
   savePicture(std::exchange(capture_path_, {}), image);

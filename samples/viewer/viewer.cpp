@@ -71,6 +71,24 @@ bool Viewer::settled() const {
          !session_.approach_to && turntable_views_ == 0;
 }
 
+void Viewer::tellProgress(bool compiles) {
+  session_.busy.clear();
+  session_.busy_share = -1.0f;  // not known
+  session_.busy_with_turntable = false;
+  if (loader_.busy()) {
+    session_.busy = "Opening " + loader_.label();
+    session_.busy_share = loader_.share();
+  } else if (ready_) {
+    session_.busy = "Drawing the first picture";
+  } else if (compiles) {
+    session_.busy = "Compiling shaders";
+  } else if (turntable_views_ > 0 && !turntable_path_.empty()) {
+    session_.busy = "Drawing the turntable";
+    session_.busy_share = static_cast<float>(turntable_at_) / static_cast<float>(turntable_views_);
+    session_.busy_with_turntable = true;
+  }
+}
+
 void Viewer::frame() {
   const auto begin = Clock::now();
   const double dt = seconds(begin - last_frame_);
@@ -78,8 +96,9 @@ void Viewer::frame() {
   if (!first_picture_ && (opening_ || session_.loaded())) {
     held_ms_ = std::max(held_ms_, 1e3 * dt);
   }
-  const bool just_compiled = !compiling() && takeCompiled();
-  if (!compiling()) {
+  const bool busy = compiling();  // asked once: it may end at any time
+  const bool just_compiled = !busy && takeCompiled();
+  if (!busy) {
     if (ready_) {
       adopt(std::exchange(ready_, nullptr));
     } else {
@@ -90,18 +109,14 @@ void Viewer::frame() {
     }
     takeDropped();
   }
-  const bool turntable = turntable_views_ > 0 && !turntable_path_.empty();
-  session_.busy = loader_.busy() ? "Opening " + loader_.label() : ready_ ? "Drawing the first picture" : compiling() ? "Compiling shaders" : turntable ? "Drawing the turntable" : "";
-  session_.busy_share = loader_.busy() ? loader_.share() : ready_ || compiling() ? -1.0f : static_cast<float>(turntable_at_) / static_cast<float>(std::max(turntable_views_, 1u));
+  tellProgress(busy);
+  session_.compiling = busy || just_compiled;
   session_.reduced = sounding_ || (session_.loaded() && !drawn_full_);
-  session_.can_cancel = turntable && !loader_.busy() && !compiling();
   const float scale = session_.settings.ui_scale > 0.0f ? session_.settings.ui_scale : window_->contentScale();
   if (scale != ui_scale_) {
     ui_scale_ = scale;
     device_->screen->setUiScale(scale);
   }
-  const bool busy = compiling();
-  session_.compiling = busy || just_compiled;
   device_->screen->setVsync(session_.settings.vsync && options_.script.empty());
   device_->screen->beginUi();
   script_.drive(settled());

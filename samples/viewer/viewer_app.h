@@ -72,6 +72,7 @@ private:
   void browse(ViewSession::Browse what);
   void measure();
   bool settled() const;
+  void tellProgress(bool compiles);
   void frame();
   int finish();
 
@@ -95,7 +96,7 @@ private:
   bool drawn_full_ = false, again_ = false;
   Clock::time_point last_change_ = Clock::now(), last_frame_ = Clock::now(), opened_ = Clock::now(), lost_{};
   double cheap_share_ = 0.35, full_ms_ = 0.0;
-  bool whole_ = false;         // nothing but full pictures are planned
+  bool only_full_ = false;     // no reduced pictures are planned
   bool sounding_ = false;      // what is shown is the small picture that told the exposure
   std::string opened_text_;
   double held_ms_ = 0.0;       // longest time between two frames from opening until the first picture

@@ -51,7 +51,7 @@ void Viewer::keys() {
   }
   if (pressed(GLFW_KEY_TAB)) session_.hide_panels = !session_.hide_panels;
   if (pressed(GLFW_KEY_ESCAPE)) {
-    session_.requests.cancel = true;
+    session_.requests.cancel_turntable = true;
     session_.show_help = session_.show_about = false;
     session_.selection = {};
     session_.picked.reset();
@@ -105,7 +105,7 @@ void Viewer::takeRequests() {
     turntable_path_.clear();
     browse(Browse::save_turntable);
   }
-  if (ask.cancel && turntable_views_ > 0) {
+  if (ask.cancel_turntable && turntable_views_ > 0) {
     turntable_views_ = turntable_at_;  // the view that is under way is the last
   }
   if (ask.copy_command && session_.loaded()) {

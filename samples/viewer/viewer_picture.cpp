@@ -93,16 +93,15 @@ void Viewer::applyEdits() {
       recolor();
     }
     session_.plain->legend = displayLegend(scene.display);
+    bool moved = false;  // a mesh, or it came or went
     if (scene.head != applied_.head) {
       for (Stage* stage : {session_.plain.get(), session_.colored.get()}) {
         if (stage) {
           stage->scene.head = scene.head;
         }
       }
-      device_->layers->renewMeshes();
-      encloseMeshes();
+      moved = true;
     }
-    bool moved = false;
     for (size_t i = 0; i < std::min(scene.meshes.size(), session_.plain->meshes.size()); ++i) {
       const SceneMesh &wanted = scene.meshes[i], &now = applied_.meshes[i];
       if (wanted.position == now.position && wanted.turn_deg == now.turn_deg && wanted.scale == now.scale && wanted.color == now.color) {
@@ -215,7 +214,7 @@ bool Viewer::drawFull() {
     return true;
   }
   drawn_full_ = false;
-  whole_ = true;
+  only_full_ = true;
   bool fine = true;
   for (int pictures = 0, tries = 0; fine && pictures < 4 && tries < 16 && (!drawn_full_ || again_); ++tries) {
     bool planned = false;
@@ -232,7 +231,7 @@ bool Viewer::drawFull() {
       takeCompiled();
     }
   }
-  whole_ = false;
+  only_full_ = false;
   return fine && drawn_full_;
 }
 
@@ -261,7 +260,7 @@ bool Viewer::planPicture(bool& planned) {
   if (window_->input().waiting()) {  // a full picture would hold it up
     last_change_ = now;
   }
-  const bool moving = seconds(now - last_change_) < kStillAfter_s && turntable_views_ == 0 && !whole_;
+  const bool moving = seconds(now - last_change_) < kStillAfter_s && turntable_views_ == 0 && !only_full_;
   const bool adapt = session_.settings.adapt && (full_ms_ > session_.settings.moving_budget_ms || full_ms_ == 0.0);
   const bool cheap = moving && adapt;
   if (key == drawn_key_ && !again_ && (drawn_full_ || cheap)) {

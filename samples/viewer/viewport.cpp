@@ -3,6 +3,7 @@
 
 #include "asset_source.h"
 #include "commands.h"
+#include "image.h"
 #include "ui.h"
 #include "view_measure.h"
 
@@ -257,10 +258,9 @@ void Viewport::drawLegend(const Legend& legend) const {
     return;
   }
   const auto colorOf = [](const glm::vec3& linear) {
-    const ImVec4 coded(ui::encodeSrgb(linear.x), ui::encodeSrgb(linear.y), ui::encodeSrgb(linear.z), 1.0f);
+    const ImVec4 coded(encodeSrgb(linear.x), encodeSrgb(linear.y), encodeSrgb(linear.z), 1.0f);
     return ImGui::ColorConvertFloat4ToU32(coded);
   };
-  constexpr size_t kMostSwatches = 12;
   const float line = ImGui::GetTextLineHeightWithSpacing(), edge = 0.5f * line, bar = 14.0f * ImGui::GetFontSize(), thick = 0.7f * line;
   const size_t swatches = std::min(legend.swatches.size(), kMostSwatches);
   const auto swatchText = [&](size_t i) {
